@@ -1,0 +1,20 @@
+"""How many examples Hypothesis tries: `ci` is repeatable and thorough, `dev` is random and quick.
+
+`ci` is taken where the environment says CI; `pytest --hypothesis-profile=dev` chooses by name.
+"""
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+# A shared machine may be slow for a moment: no example is judged by its seconds.
+settings.register_profile("dev", deadline=None, max_examples=50)
+settings.register_profile(
+    "ci",
+    deadline=None,
+    max_examples=300,
+    derandomize=True,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("ci" if os.environ.get("CI") else "dev")
