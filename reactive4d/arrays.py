@@ -1,0 +1,85 @@
+"""Values as the engine sees them: when two are the same, how large they are, and how an array is frozen."""
+
+import struct
+import sys
+from typing import Any
+
+import numpy as np
+
+__all__ = ["freeze", "measure", "same"]
+
+_EXACT = (int, str, bytes, bool, type(None))
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values cannot be told apart: the same type, shape and bytes, where any NaN equals any NaN.
+
+    So 0.0 and -0.0 differ, and so do 1, 1.0 and True. Objects with an `__eq__` of their own are the same only if they
+    are identical: their `__eq__` is never called.
+
+    >>> same(float("nan"), float("nan")), same(0.0, -0.0), same(1, True), same((1, 2.0), (1, 2.0))
+    (True, False, False, True)
+    """
+    if a is b:
+        return True
+    kind = type(a)
+    if kind is not type(b):
+        return False
+    if kind is float:
+        return (a == b and (a != 0.0 or struct.pack("d", a) == struct.pack("d", b))) or (a != a and b != b)
+    if kind in _EXACT:
+        return a == b
+    if kind is np.ndarray:
+        return _same_arrays(a, b)
+    if kind is tuple:
+        return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b, strict=True))
+    if kind is complex:
+        return same(a.real, b.real) and same(a.imag, b.imag)
+    if isinstance(a, np.generic):
+        return a.dtype != object and _same_arrays(np.asarray(a), np.asarray(b))
+    return False
+
+
+def _same_arrays(a: np.ndarray[Any, Any], b: np.ndarray[Any, Any]) -> bool:
+    if a.shape != b.shape or a.dtype != b.dtype or a.dtype.hasobject:
+        return False
+    if a.tobytes() == b.tobytes():
+        return True
+    if a.dtype.kind not in "fc":
+        return False
+    lost = np.isnan(a)
+    if not np.array_equal(lost, np.isnan(b)):
+        return False
+    return a[~lost].tobytes() == b[~lost].tobytes()
+
+
+def freeze(value: Any) -> Any:
+    """Make an array read-only, so that nobody changes an answer that others share; other values pass unchanged.
+
+    An array that only views a writable one is copied first.
+
+    >>> freeze(np.zeros(3)).flags.writeable
+    False
+    """
+    if type(value) is np.ndarray and value.flags.writeable:
+        if value.base is not None:
+            value = value.copy()
+        value.flags.writeable = False
+    return value
+
+
+def measure(value: Any) -> int:
+    """About how many bytes a value takes: arrays by `nbytes`, tuples by their members.
+
+    >>> measure(np.zeros(1000)) > 8000
+    True
+    """
+    kind = type(value)
+    if kind is float:
+        return 24
+    if kind is np.ndarray:
+        return 112 + value.nbytes
+    if kind is tuple:
+        return sys.getsizeof(value) + sum(map(measure, value))
+    size = getattr(value, "nbytes", None)
+    return int(size) + 64 if isinstance(size, int) else sys.getsizeof(value, 64)

@@ -1,0 +1,278 @@
+"""The engine: what all cells of a process share — the count of edits, the byte budget, the log, the open transaction."""
+
+import itertools
+import sys
+import weakref
+from collections.abc import Callable, Generator, Iterable, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from typing import TYPE_CHECKING, Any
+
+from reactive4d.engine import checks, edits, evictions, explanations, graphs, naive
+from reactive4d.engine.events import Event
+from reactive4d.engine.failures import Failure, raised
+from reactive4d.engine.frames import CHANGED, LOCK, WATCH, CycleFound, Hit, Me, here
+from reactive4d.engine.points import Point
+from reactive4d.engine.segments import Segment
+from reactive4d.errors import ParameterError, TimeError, unknown
+
+if TYPE_CHECKING:
+    from reactive4d.engine.cells import Axis, Cell
+
+__all__ = ["Engine", "engine"]
+
+INF = float("inf")
+MOST_POINTS = 4096
+
+
+def _same(a: Any, b: Any) -> bool:
+    """What the engine takes for equal until it is told better: identity, or equal plain values of one type."""
+    if a is b:
+        return True
+    if type(a) is not type(b):
+        return False
+    if type(a) is float:
+        return a.hex() == b.hex()
+    return type(a) in (int, str, bytes, bool) and a == b
+
+
+def _freeze(value: Any) -> Any:
+    return value
+
+
+class Engine:
+    """What the cells of a process share. There is one, `engine`; tests make their own.
+
+    Args:
+        budget: bytes that remembered answers may take.
+        same: whether two answers cannot be told apart; where they cannot, nobody downstream runs.
+        measure: how many bytes an answer takes.
+        freeze: makes an answer unchangeable before it is shared.
+    """
+
+    def __init__(
+        self,
+        *,
+        budget: int = 1 << 30,
+        same: Callable[[Any, Any], bool] = _same,
+        measure: Callable[[Any], int] = sys.getsizeof,
+        freeze: Callable[[Any], Any] = _freeze,
+    ) -> None:
+        self.budget = budget
+        self.same = same
+        self.measure = measure
+        self.freeze = freeze
+        self.stamp: Callable[[], int] = itertools.count(1).__next__
+        self.epoch = 0  # edits so far
+        self.clock = 0  # answers stored so far
+        self.revivals = 0  # how often a source got old stamps back
+        self.owner: Me | None = None  # of the open transaction
+        self.undo: list[Any] = []
+        self.waiting = 0  # threads that wait for anything
+        self.patience = 0  # evaluations that edits wait for
+        self.logs: list[list[Event]] = []
+        self.axes: dict[str, Any] = {}
+        self.points: dict[Any, Point] = {}
+        self.bytes = 0  # at least what the remembered answers take; counted anew before anything is evicted
+        self.keepers: list[Any] = []  # weak references to cells that remember something
+        self.crowd = 1024  # keepers at which the dead are next swept out
+        self.hand = 0
+        self.threshold = 0.0  # an answer that pays less is not worth its bytes at present
+        self.unpaid: list[Any] = []
+        self.refused = 0
+        self.evicted = 0
+
+    @property
+    def budget(self) -> int:
+        """Bytes that remembered answers may take. Every cell keeps its latest answer all the same."""
+        return self._budget
+
+    @budget.setter
+    def budget(self, budget: int) -> None:
+        if budget < 0:
+            raise ValueError(f"budget: expected a number of bytes, got {budget!r}")
+        self._budget = budget
+        self.limit = budget  # the bytes at which to look for what may go
+
+    # -- asking ----------------------------------------------------------------------------------------------------
+
+    def closed_to(self, me: Me) -> bool:
+        """Whether another thread has a transaction open."""
+        return self.owner is not None and self.owner is not me
+
+    def point(self, given: Mapping[str, Any]) -> Point:
+        """The point with these parameter values.
+
+        Raises:
+            UnknownNameError: there is no parameter of this name.
+            ParameterError: a value that no parameter of this name takes.
+        """
+        try:
+            key = tuple(given.items())
+            point = self.points.get(key)
+        except TypeError:
+            return self._new_point(None, given)
+        return point if point is not None else self._new_point(key, given)
+
+    def _new_point(self, key: Any, given: Mapping[str, Any]) -> Point:
+        admitted: dict[str, Any] = {}
+        for name in sorted(given):
+            known = list(self.axes.get(name, ()))
+            if not known:
+                raise unknown(name, [other for other, axes in self.axes.items() if axes], what="parameter")
+            refusal: ParameterError | None = None
+            for axis in known:
+                try:
+                    admitted[name] = axis.admit(given[name])
+                    break
+                except ParameterError as error:
+                    refusal = error
+            else:
+                assert refusal is not None
+                raise refusal
+        with LOCK:
+            if len(self.points) >= MOST_POINTS:
+                self.points.clear()
+            point = self.points.setdefault(tuple(admitted.items()), Point(admitted))
+            if key is not None:
+                self.points[key] = point
+        return point
+
+    def new_axes(self) -> Any:
+        """A set that does not keep its parameters alive."""
+        return weakref.WeakSet()
+
+    def elsewhere(self, entry: Any, t: float, point: Point | None) -> "tuple[Cell, float, Point | None]":
+        """Where a dependency (cell, map, overrides) is read by a reader at `t` and `point`; the lock may be held."""
+        cell, time_map, overrides = entry
+        if time_map is not None:
+            t = time_map.forward(t)
+            if t != t:
+                raise TimeError(f"{cell.name} asked at t = nan, by {time_map!r}")
+        if overrides is not None:
+            given = {**point.given, **dict(overrides)} if point is not None else dict(overrides)
+            key = tuple(sorted(given.items()))
+            found = self.points.get(key)
+            if found is None:
+                found = self.points[key] = Point({name: self._admitted(name, value) for name, value in key})
+            point = found
+        return cell, t, point
+
+    def _admitted(self, name: str, value: Any) -> Any:
+        for axis in list(self.axes.get(name, ())):
+            try:
+                return axis.admit(value)
+            except ParameterError:
+                continue
+        return value
+
+    def brought_back(self, entry: Any, hit: Hit, at: float, t: float) -> Hit:
+        """A hit read elsewhere, with the interval as the reader sees it, and without the parameters it gave itself."""
+        _, time_map, overrides = entry
+        lo, hi, value, stamp, point, axes = hit
+        if time_map is not None:
+            lo, hi = time_map.pull(lo, hi, t)
+        if overrides is not None and axes is not None:
+            mine = {name for name, _ in overrides}
+            axes = tuple(axis for axis in axes if axis.name not in mine) or None
+        return lo, hi, value, stamp, point, axes
+
+    def naive(self, cell: "Cell", t: float, /, **parameters: Any) -> Any:
+        """The answer as an evaluator gives it that remembers nothing: for tests, and for doubts."""
+        point = self.point(parameters) if parameters else None
+        WATCH[0] += 1
+        try:
+            value = naive.evaluate(cell, float(t), point)
+        except CycleFound as found:
+            from reactive4d.engine.asks import cycle_error
+
+            raise cycle_error(found.path) from None
+        finally:
+            WATCH[0] -= 1
+        if type(value) is Failure:
+            raise raised(value)
+        return value
+
+    # -- editing ---------------------------------------------------------------------------------------------------
+
+    def transaction(self) -> AbstractContextManager[None]:
+        """All edits of the block are published at once, or none if it raises.
+
+        Inside, this thread sees what it set; other threads go on with what they remember, or wait for the end.
+        """
+        return edits.transaction(self)
+
+    # -- remembering -----------------------------------------------------------------------------------------------
+
+    def timed(self, cell: "Cell", seconds: float) -> None:
+        """Note how long a rule took: the first run, then every sixteenth."""
+        cell.cost = seconds if cell.cost == 0.0 else 0.75 * cell.cost + 0.25 * seconds
+
+    def remembered(self, cell: "Cell", segment: Segment) -> None:
+        """Count the bytes of a new segment."""
+        value = segment.value
+        self.bytes += evictions.SEGMENT + (24 if type(value) is float else self.measure(value))
+        evictions.keep(self, cell, segment)
+
+    def grown(self, cell: "Cell", value: Any) -> None:
+        """Count the bytes of an answer that replaced another, which is kept for undoing."""
+        self.bytes += evictions.CONTENT + (24 if type(value) is float else self.measure(value))
+
+    def trim(self) -> None:
+        """Forget what pays least, until the budget is kept; the lock is held, and nothing is being evaluated."""
+        evictions.trim(self)
+
+    def forget(self, cells: "Iterable[Cell] | None" = None) -> None:
+        """Forget remembered answers: of some cells, or all that can be computed again. Answers never change by it."""
+        with LOCK:
+            evictions.forget(self, cells)
+
+    # -- seen from outside -----------------------------------------------------------------------------------------
+
+    def emit(self, kind: str, cell: "Cell", lo: float, hi: float) -> None:
+        """Tell the open logs what was done."""
+        event = Event(kind, cell.name, lo, hi)
+        if kind == "reused":
+            cell.hits += 1
+        for log in self.logs:
+            log.append(event)
+
+    @contextmanager
+    def log(self) -> Generator[list[Event]]:
+        """The events of the block, as a list that grows while it runs. Hits are counted only while a log is open."""
+        events: list[Event] = []
+        with LOCK:
+            self.logs.append(events)
+            WATCH[0] += 1
+        try:
+            yield events
+        finally:
+            with LOCK:
+                # By identity: two logs may hold equal events.
+                self.logs = [log for log in self.logs if log is not events]
+                WATCH[0] -= 1
+
+    def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:
+        """What was computed and what reused to answer at a point, and why, as an indented text."""
+        return explanations.explain(self, cell, t, parameters)
+
+    def graph(self, cells: "Iterable[Cell]") -> graphs.Graph:
+        """The cells and everything that they read, as data, text and DOT."""
+        return graphs.graph(cells)
+
+    def stats(self, cells: "Iterable[Cell] | None" = None) -> dict[str, Any]:
+        """Bytes, budget, evictions; and for each cell its evaluations, seconds, answers, bytes and (if logged) hits."""
+        return evictions.stats(self, cells)
+
+    def check(self, cells: "Iterable[Cell]") -> None:
+        """Verify the invariants for cells and everything they read; raises AssertionError."""
+        with LOCK:
+            while self.owner is not None and self.owner is not here.me:
+                CHANGED.wait()
+            checks.check(self, cells)
+
+
+def _process_engine() -> Engine:
+    return Engine()
+
+
+engine = _process_engine()

@@ -1,0 +1,76 @@
+"""Errors as answers: an exception that a rule raised, remembered without the frames that it came through."""
+
+import copy
+import traceback
+from typing import Any
+
+__all__ = ["Failure", "failure", "raised", "same_failure"]
+
+
+class Failure:
+    """An exception as an answer. `source` is the failure that was read, where this one only passed it on."""
+
+    __slots__ = ("error", "name", "source", "t", "text")
+
+    def __init__(self, error: Exception, name: str, t: float, source: "Failure | None") -> None:
+        self.error = error
+        self.name = name
+        self.t = t
+        self.source = source
+        self.text = "" if source is not None else "".join(traceback.format_exception(error))
+
+    def __repr__(self) -> str:
+        return f"<{type(self.error).__name__}: {self.error}>"
+
+    @property
+    def nbytes(self) -> int:
+        """About how much the message and the formatted traceback take."""
+        return 400 + len(self.text)
+
+
+def failure(error: Exception, name: str, t: float, source: Failure | None = None) -> Failure:
+    """Remember an exception, without keeping alive the frames (and the arrays in them) that it came through."""
+    kept = Failure(error if source is None else source.error, name, t, source)
+    seen: set[int] = set()
+    link: BaseException | None = error
+    while link is not None and id(link) not in seen:
+        seen.add(id(link))
+        after = link.__cause__ or link.__context__
+        link.__traceback__ = None
+        link = after
+    return kept
+
+
+def raised(answer: Failure) -> Exception:
+    """A fresh exception to raise, with the path on which it came up as notes."""
+    try:
+        error = copy.copy(answer.error)
+        if type(error) is not type(answer.error) or str(error) != str(answer.error):
+            error = answer.error
+    except Exception:  # noqa: BLE001  an exception that cannot be copied is raised itself
+        error = answer.error
+    error.__traceback__ = None
+    error.__cause__ = answer.error.__cause__
+    error.__notes__ = list(getattr(answer.error, "__notes__", ()))
+    for note in _path(answer):
+        error.add_note(note)
+    return error
+
+
+def _path(answer: Failure) -> list[str]:
+    steps: list[Failure] = []
+    link: Failure | None = answer
+    while link is not None:
+        steps.append(link)
+        link = link.source
+    steps.reverse()
+    lines = [f"while evaluating {steps[0].name} at t = {steps[0].t:g}"]
+    asked = [f"asked by {step.name}" + (f" at t = {step.t:g}" if step.t != steps[0].t else "") for step in steps[1:]]
+    if len(asked) > 12:
+        asked[6:-6] = [f"… {len(asked) - 12} more …"]
+    return lines + asked
+
+
+def same_failure(a: Any, b: Any) -> bool:
+    """Whether two failures say the same: the same type of exception and the same message."""
+    return type(a.error) is type(b.error) and str(a.error) == str(b.error) and a.error.args == b.error.args

@@ -1,0 +1,54 @@
+"""Pushing staleness: an edit marks what may depend on it, along the links and over the touched interval, and no further.
+
+Nothing is computed. The walk stops where everything is marked already, so that repeated edits before the next ask cost
+next to nothing. It has a stack of its own: no depth of links is too deep.
+"""
+
+from typing import TYPE_CHECKING
+
+from reactive4d.engine.frames import NEVER
+from reactive4d.engine.links import Readers, preimages, readers_of
+from reactive4d.engine.segments import flip
+
+if TYPE_CHECKING:
+    from reactive4d.engine.cells import Cell
+    from reactive4d.engine.engines import Engine
+
+__all__ = ["mark", "push"]
+
+
+def mark(engine: "Engine", cell: "Cell", lo: float, hi: float) -> tuple[float, float] | None:
+    """Put what a cell remembers over [lo, hi) in check; returns where something was clean, or None."""
+    hit = cell.hit
+    if hit[0] < hi and lo < hit[1]:
+        cell.hit = NEVER
+    changed = flip(cell, lo, hi)
+    if cell.shelves is not None and cell.shelves.mark(lo, hi):
+        changed = (lo, hi)
+    if changed is not None and engine.logs:
+        engine.emit("marked", cell, changed[0], changed[1])
+    return changed
+
+
+def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
+    """Mark everything that reads a cell over [lo, hi), directly or through others."""
+    stack = [(cell, lo, hi)]
+    while stack:
+        cell, lo, hi = stack.pop()
+        readers = cell.readers
+        if readers is None:
+            continue
+        if type(readers) is not Readers:
+            reader = readers()
+            if reader is None:
+                cell.readers = None
+                continue
+            changed = mark(engine, reader, lo, hi)
+            if changed is not None:
+                stack.append((reader, *changed))
+            continue
+        for reader, maps in readers_of(cell):
+            for a, b in preimages(maps, lo, hi):
+                changed = mark(engine, reader, a, b)
+                if changed is not None:
+                    stack.append((reader, *changed))

@@ -1,0 +1,89 @@
+"""The exceptions that reactive4d raises, drawn as a tree.
+
+::
+
+    Exception
+      Reactive4dError
+        CycleError            a cell reads itself at one instant
+        EvaluationError       the engine was used where it cannot be (an edit inside of an evaluation)
+        DepthError            opaque rules nested deeper than the interpreter allows
+        ShapeError            a value of the wrong shape or type      (also a ValueError)
+        TimeError             a time that is not a time: NaN, a duplicate key   (also a ValueError)
+        ParameterError        a parameter out of bounds, of another type, or twice under one name  (also a ValueError)
+        UnknownNameError      a name nobody knows, with the nearest known one   (also a LookupError)
+
+Every message says what is wrong, with the value, and what was expected; a note (PEP 678) says what to do.
+"""
+
+import difflib
+from collections.abc import Iterable
+from typing import TypeVar
+
+__all__ = [
+    "CycleError",
+    "DepthError",
+    "EvaluationError",
+    "ParameterError",
+    "Reactive4dError",
+    "ShapeError",
+    "TimeError",
+    "UnknownNameError",
+]
+
+E = TypeVar("E", bound=BaseException)
+
+
+class Reactive4dError(Exception):
+    """What every error of reactive4d is."""
+
+
+class CycleError(Reactive4dError):
+    """A cell reads itself at one and the same point; the message names the path."""
+
+
+class EvaluationError(Reactive4dError):
+    """The engine was asked for what is not possible here: an edit inside of an evaluation, `now()` outside of one."""
+
+
+class DepthError(Reactive4dError):
+    """Opaque rules are nested deeper than the interpreter can go."""
+
+
+class ShapeError(Reactive4dError, ValueError):
+    """A value has the wrong shape or the wrong type."""
+
+
+class TimeError(Reactive4dError, ValueError):
+    """A time is not usable: NaN, or a key where there is one already."""
+
+
+class ParameterError(Reactive4dError, ValueError):
+    """A reader's parameter is out of bounds, of another type, or stands twice under one name."""
+
+
+class UnknownNameError(Reactive4dError, LookupError):
+    """A name that nobody knows."""
+
+
+def hint(error: E, text: str) -> E:
+    """Add a note that says what to do, and return the error so that it can be raised at once.
+
+    >>> hint(ShapeError("expected 3 numbers, got 2"), "give (x, y, z)").__notes__
+    ['hint: give (x, y, z)']
+    """
+    error.add_note(f"hint: {text}")
+    return error
+
+
+def unknown(name: str, known: Iterable[str], *, what: str) -> UnknownNameError:
+    """The error for a name that nobody knows, with the nearest known one as a hint.
+
+    >>> str(unknown("liner", ["linear", "step"], what="interpolation"))
+    "unknown interpolation 'liner'"
+    """
+    names = sorted(known)
+    error = UnknownNameError(f"unknown {what} {name!r}")
+    near = difflib.get_close_matches(name, names, n=1)
+    if near:
+        return hint(error, f"did you mean {near[0]!r}?")
+    return hint(error, f"known are {', '.join(map(repr, names))}" if names else f"there is no {what} yet")
