@@ -651,12 +651,11 @@ def _store(
 ) -> None:
     """Remember an answer: clip it to the gap, or to the segment in check that it replaces; cut off if it is the same."""
     t, lo, hi = task.t, task.lo, task.hi
+    old_reads: tuple[Any, ...] | None = None
     if reads != cell.linked:
         old_reads = cell.linked
         link(cell, reads)
         cell.linked = reads
-        if old_reads and len(cell.segments) == 1 and cell.shelves is None:
-            unlink(cell, old_reads, reads)
     else:
         reads = cell.linked
     engine.clock += 1
@@ -723,6 +722,9 @@ def _store(
                 engine.emit("cut off", cell, lo, hi)
         if len(segments) > 1:
             _merge(table, segment)
+    if old_reads and cell.shelves is None and len(cell.segments) == 1:
+        # No other segment is left which could still list what this one no longer reads.
+        unlink(cell, old_reads, segment.reads)
     if table is cell:
         _publish(engine, cell, segment, None, None)
     else:
