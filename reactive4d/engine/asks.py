@@ -12,6 +12,7 @@ count of edits (`epoch`): whoever read something that was touched starts again.
 """
 
 from bisect import bisect_right
+from math import nextafter
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -115,14 +116,13 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
         try:
             lo, hi, value = cell.sample(t)
         except Exception as error:  # noqa: BLE001  a source's own error is an answer as well
-            lo, hi, value = t, t, failure(error, cell.name, t)
+            # What it says elsewhere is not known.
+            lo, hi, value = t, nextafter(t, INF), failure(error, cell.name, t)
         a, b, stamp = piece(cell.stamps, t)
         hit = (lo if lo > a else a, hi if hi < b else b, value, stamp, None, None)
-        if type(value) is not Failure:
-            if engine.owner is None:
-                cell.hit = hit
-            return hit
-        return a, b, value, stamp, None, None
+        if type(value) is not Failure and engine.owner is None:
+            cell.hit = hit
+        return hit
     if kind == AXIS:
         if point is None:
             return cell.hit
