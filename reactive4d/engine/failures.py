@@ -43,12 +43,15 @@ def failure(error: Exception, name: str, t: float, source: Failure | None = None
 
 def raised(answer: Failure) -> Exception:
     """A fresh exception to raise, with the path on which it came up as notes."""
+    kind = type(answer.error)
     try:
         error = copy.copy(answer.error)
-        if type(error) is not type(answer.error) or str(error) != str(answer.error):
-            error = answer.error
-    except Exception:  # noqa: BLE001  an exception that cannot be copied is raised itself
-        error = answer.error
+        if type(error) is not kind or str(error) != str(answer.error):
+            raise TypeError
+    except Exception:  # noqa: BLE001  its class wants other arguments than it keeps: copy it without its `__init__`
+        error = kind.__new__(kind, *answer.error.args)
+        error.args = answer.error.args
+        error.__dict__.update(answer.error.__dict__)
     error.__traceback__ = None
     error.__cause__ = answer.error.__cause__
     error.__notes__ = list(getattr(answer.error, "__notes__", ()))
