@@ -744,7 +744,7 @@ def _adopt(engine: "Engine", segment: Segment, neighbour: Segment) -> None:
 
 def _equal(engine: "Engine", a: Any, b: Any) -> bool:
     if type(a) is Failure or type(b) is Failure:
-        return type(a) is type(b) and same_failure(a, b)
+        return type(a) is type(b) and same_failure(a, b, same=engine.same)
     return a is b or engine.same(a, b)
 
 

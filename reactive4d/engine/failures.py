@@ -2,6 +2,7 @@
 
 import copy
 import traceback
+from collections.abc import Callable
 from typing import Any
 
 __all__ = ["Failure", "failure", "raised", "same_failure"]
@@ -74,6 +75,9 @@ def _path(answer: Failure) -> list[str]:
     return lines + asked
 
 
-def same_failure(a: Any, b: Any) -> bool:
-    """Whether two failures say the same: the same type of exception and the same message."""
-    return type(a.error) is type(b.error) and str(a.error) == str(b.error) and a.error.args == b.error.args
+def same_failure(a: Any, b: Any, *, same: Callable[[Any, Any], bool]) -> bool:
+    """Whether two failures say the same: the same type of exception, the same message and arguments."""
+    if type(a.error) is not type(b.error) or str(a.error) != str(b.error):
+        return False
+    mine, its = a.error.args, b.error.args
+    return len(mine) == len(its) and all(same(x, y) for x, y in zip(mine, its, strict=True))
