@@ -7,6 +7,7 @@
 """
 
 import math
+import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -120,6 +121,8 @@ class Cell(Table):
             return hit
         if t != t:
             raise TimeError(f"{self.name} asked at t = nan")
+        if t == INF:
+            return self._hit_at(sys.float_info.max, parameters)  # with which it shares its instant
         return asks.ask(self, t, point)
 
     def valid(self, t: float, **parameters: Any) -> Interval:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Engine", "engine"]
 
 INF = float("inf")
+LATEST = sys.float_info.max  # `inf` shares its instant with it, so that half-open intervals hold every time
 MOST_POINTS = 4096
 
 
@@ -148,6 +149,7 @@ class Engine:
             t = time_map.forward(t)
             if t != t:
                 raise TimeError(f"{cell.name} asked at t = nan, by {time_map!r}")
+            t = min(t, LATEST)
         if overrides is not None:
             given = {**point.given, **dict(overrides)} if point is not None else dict(overrides)
             key = tuple(sorted(given.items()))
@@ -181,7 +183,7 @@ class Engine:
         point = self.point(parameters) if parameters else None
         WATCH[0] += 1
         try:
-            value = naive.evaluate(cell, float(t), point)
+            value = naive.evaluate(cell, min(float(t), LATEST), point)
         except CycleFound as found:
             from reactive4d.engine.asks import cycle_error
 

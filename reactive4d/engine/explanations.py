@@ -1,5 +1,6 @@
 """What was computed and what was reused to answer one question, and why."""
 
+import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ def explain(engine: "Engine", cell: "Cell", t: float, parameters: Mapping[str, A
     """Answer the question, and tell what had to be done for it."""
     from reactive4d.engine.checks import reached
 
+    t = min(float(t), sys.float_info.max)
     point = engine.point(parameters) if parameters else None
     before = {other: _runs(other) for other in reached([cell])}
     stale = {other: _standing(other, t) for other in before}
