@@ -1,6 +1,6 @@
 """The reactive engine: cells that remember every answer with the interval and the parameters for which it holds."""
 
-from reactive4d.engine.cells import Axis, Cell, Computed, Formula, Source, moment, narrow
+from reactive4d.engine.cells import Axis, Cell, Computed, Formula, Source, moment, narrow, sealed
 from reactive4d.engine.engines import Engine, engine
 from reactive4d.engine.events import Event
 from reactive4d.engine.graphs import Graph
@@ -21,4 +21,5 @@ __all__ = [
     "engine",
     "moment",
     "narrow",
+    "sealed",
 ]

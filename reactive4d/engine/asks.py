@@ -126,7 +126,7 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
     if kind == AXIS:
         if point is None:
             return cell.hit
-        return -INF, INF, point.value(cell), 0, point, (cell,)
+        return -INF, INF, point.shown(cell), 0, point, (cell,)
     segments = cell.segments
     if segments:
         i = bisect_right(cell.starts, t) - 1
@@ -180,8 +180,11 @@ def bring(engine: "Engine", cell: "Cell", t: float, point: "Point | None", me: M
                     stack.append(task)
                 want = None
             task = stack[-1]
-            if task.cell.kind == FORMULA:
+            kind = task.cell.kind
+            if kind == FORMULA:
                 need = _formula(engine, task)
+            elif kind < FORMULA:
+                need = None  # it was computed, and has been set to a constant meanwhile
             else:
                 try:
                     need = _computed(engine, task)

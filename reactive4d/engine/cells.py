@@ -17,7 +17,7 @@ from reactive4d.engine.frames import NEVER, WATCH, Cancelled, Hit, Task, here
 from reactive4d.engine.maps import Fixed, TimeMap
 from reactive4d.engine.segments import MappedReads, Table
 from reactive4d.engine.stamps import Stamps, piece
-from reactive4d.errors import EvaluationError, ParameterError, TimeError, hint, unknown
+from reactive4d.errors import EvaluationError, ParameterError, TimeError, hint
 from reactive4d.intervals import Interval
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from reactive4d.engine.points import Point
     from reactive4d.engine.shelves import Shelves
 
-__all__ = ["Axis", "Cell", "Computed", "Formula", "Source", "moment", "narrow"]
+__all__ = ["Axis", "Cell", "Computed", "Formula", "Source", "moment", "narrow", "sealed"]
 
 INF = math.inf
 
@@ -73,11 +73,15 @@ class Cell(Table):
     stamps: Stamps = 0
 
     def at(self, t: float, /, **parameters: Any) -> Any:
-        """The answer at one instant.
+        """The answer at one instant; of a signal also the answers at an array of times.
 
         Args:
-            t: seconds; not NaN. Infinite times are legal.
+            t: seconds; not NaN. Infinite times are legal. For a signal also (N,) times.
             **parameters: a reader's values. Those not named are the asker's inside of an evaluation, else the defaults.
+
+        Returns:
+            The answer; for (N,) times an array of (N, …), frozen, evaluated together wherever possible, or a tuple of N
+            where the answers are no numbers.
 
         Raises:
             TimeError: `t` is NaN or no number.
@@ -245,6 +249,9 @@ class Source(Cell):
         """The intervals over which two contents may say something different; none if they are equal."""
         return [] if self.engine.same(old, new) else [(-INF, INF)]
 
+    def adopt(self) -> None:
+        """Called when the content was set, the lock held: a source whose content may be alive changes its kind here."""
+
     def note(self) -> Any:
         """The content, as it is for the asker's time, without making the answer depend on the instant."""
         frame = here.me.frame
@@ -278,7 +285,7 @@ class Axis(Cell):
     def __init__(self, name: str, default: Any, *, engine: "Engine | None" = None) -> None:
         super().__init__(name=name, engine=engine)
         self.default = self.admit(default)
-        self.hit = (-INF, INF, self.default, 0, None, (self,))
+        self.hit = (-INF, INF, self.present(self.default), 0, None, (self,))
         self.engine.axes.setdefault(name, self.engine.new_axes()).add(self)
 
     def admit(self, value: Any) -> Any:
@@ -295,6 +302,10 @@ class Axis(Cell):
             hash(value)
         except TypeError:
             raise ParameterError(f"{self.name}: expected a value that can be hashed, got {value!r}") from None
+        return value
+
+    def present(self, value: Any) -> Any:
+        """An admitted value as an answer."""
         return value
 
 
@@ -337,6 +348,24 @@ class Computed(Cell):
         self.rule = rule
 
 
+def sealed(function: Callable[..., Any], name: str) -> Callable[..., Any]:
+    """A function of values that may read nothing: what it reads could not be known to whoever asks for the answer."""
+    guard = Task(Cell(name=name), math.nan, None, here.me, None)
+    guard.begin(0)
+    guard.naive = naive.SEALED
+
+    def call(*values: Any) -> Any:
+        me = here.me
+        outer = me.frame
+        me.frame = guard
+        try:
+            return function(*values)
+        finally:
+            me.frame = outer
+
+    return call
+
+
 def _frame(what: str) -> Task:
     frame = here.me.frame
     if frame is None:
@@ -354,8 +383,3 @@ def narrow(lo: float, hi: float) -> None:
     frame = _frame("narrow(…)")
     if frame.naive is None:
         frame.lo, frame.hi = max(frame.lo, lo), min(frame.hi, hi)
-
-
-def unknown_parameter(name: str, known: list[str]) -> Exception:
-    """The error for a parameter that nobody has."""
-    return unknown(name, known, what="parameter")

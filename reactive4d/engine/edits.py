@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.frames import CHANGED, LOCK, NEVER, Me, here
-from reactive4d.engine.marks import push
+from reactive4d.engine.marks import mark, push
 from reactive4d.engine.stamps import Stamps, assigned
 from reactive4d.errors import EvaluationError, hint
 
@@ -79,9 +79,12 @@ def _apply(
     source.content = content
     source.stamps = stamps
     source.hit = NEVER
+    source.adopt()
     for lo, hi in spans:
         if engine.logs:
             engine.emit("edited", source, lo, hi)
+        if source.segments or source.shelves is not None:
+            mark(engine, source, lo, hi)
         push(engine, source, lo, hi)
 
 

@@ -91,7 +91,7 @@ class Task:
         "lo",
         "mapped",  # whether some dependency was read elsewhere in time
         "me",
-        "naive",  # set in the frames of the naive evaluator
+        "naive",  # set in the frames of the naive evaluator, and where no read is allowed
         "nested",  # seconds spent in evaluations inside of this one
         "parent",  # the task that wants this one
         "patient",  # whether edits wait for this task

@@ -15,7 +15,7 @@ from reactive4d.engine.segments import MappedReads
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
 
-__all__ = ["ANYWHERE", "CellRef", "link", "readers_of", "reference", "unlink"]
+__all__ = ["ANYWHERE", "CellRef", "add_link", "link", "readers_of", "reference", "unlink"]
 
 INF = float("inf")
 MOST_MAPS = 8
@@ -50,6 +50,11 @@ def _joined(old: Any, new: TimeMap | None) -> Any:
     if new in maps:
         return old
     return (*maps, new) if len(maps) < MOST_MAPS else ANYWHERE
+
+
+def add_link(cell: "Cell", source: "Cell", time_map: TimeMap | None) -> None:
+    """Let one cell know that another reads it."""
+    _add(source, reference(cell), time_map)
 
 
 def _add(source: "Cell", ref: Any, time_map: TimeMap | None) -> None:

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any
 from reactive4d.engine.failures import Failure, failure, raised
 from reactive4d.engine.frames import CycleFound, Task, here
 from reactive4d.engine.segments import MappedReads
-from reactive4d.errors import ParameterError
+from reactive4d.errors import EvaluationError, ParameterError, hint
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
     from reactive4d.engine.points import Point
 
-__all__ = ["evaluate", "read"]
+__all__ = ["SEALED", "evaluate", "read"]
+
+SEALED: Any = object()  # a frame's `naive` where a function of values runs, which may read nothing
 
 SOURCE, AXIS, FORMULA = 0, 1, 2
 
@@ -29,7 +31,7 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
     if cell.kind == SOURCE:
         return cell.sample(t)[2], {}
     if cell.kind == AXIS:
-        return (cell.hit[2] if point is None else point.value(cell)), {cell.name: cell}
+        return (cell.hit[2] if point is None else point.shown(cell)), {cell.name: cell}
     other = parent
     path = [(cell.name, t)]
     while other is not None:
@@ -85,6 +87,9 @@ def _formula(cell: "Cell", task: Task) -> Any:
 
 def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Any:
     """What a rule gets that reads a cell while it is evaluated naively."""
+    if frame.naive is SEALED:
+        error = EvaluationError(f"{frame.cell.name} reads {cell.name} inside of a function of values")
+        raise hint(error, "hand it in as an argument, lift(f)(a, b), or write an @signal, which may read")
     value, axes = _answer(cell, t, point, frame)
     if point is not frame.point:
         given = {} if frame.point is None else frame.point.given

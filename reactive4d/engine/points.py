@@ -30,5 +30,9 @@ class Point:
             value = self.values[axis] = axis.admit(self.given[axis.name]) if axis.name in self.given else axis.default
             return value
 
+    def shown(self, axis: "Axis") -> Any:
+        """The value of one parameter here, as an answer."""
+        return axis.present(self.value(axis))
+
     def __repr__(self) -> str:
         return ", ".join(f"{name}={value!r}" for name, value in sorted(self.given.items()))

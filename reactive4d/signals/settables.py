@@ -1,0 +1,70 @@
+"""Signals that one sets: to a constant, or to something alive that other signals make up."""
+
+from typing import Any, TypeVar
+
+from reactive4d.engine import Engine, Source, asks
+from reactive4d.signals.signal import Signal
+
+__all__ = ["Contents", "Settable"]
+
+T = TypeVar("T")
+
+
+class Contents(Source):
+    """What a settable signal was set to, as something that its own answer reads: it has the stamps of its owner."""
+
+    __slots__ = ()
+
+    unchanging = True  # whoever reads it is marked by the owner
+
+    def sample(self, t: float) -> tuple[float, float, Any]:
+        """Nothing: only the stamps count."""
+        return -asks.INF, asks.INF, None
+
+    def sample_many(self, ts: Any) -> Any:
+        """Nothing, as often."""
+        return ts
+
+
+class Settable(Signal[T], Source):
+    """A source while its content is a constant; computed while the content refers to other signals.
+
+    A subclass says in `adopt` which of the two it is, by `_be_source`, `_be_formula` or `_be_computed`.
+    """
+
+    __slots__ = ("inputs", "kind", "own")
+
+    def __init__(self, content: Any, *, name: str | None = None, engine: Engine | None = None) -> None:
+        self.kind = asks.SOURCE
+        self.inputs: tuple[Any, ...] = ()
+        self.own: Contents | None = None
+        super().__init__(content, name=name, engine=engine)
+        self.adopt()
+
+    def _be_source(self) -> None:
+        self.kind = asks.SOURCE
+        self.inputs = ()
+        if self.own is not None:
+            self.own.stamps = self.stamps
+
+    def _contents(self) -> Contents:
+        own = self.own
+        if own is None:
+            own = self.own = Contents(None, name=f"{self.name}.source", engine=self.engine)
+        own.content = self.content
+        own.stamps = self.stamps
+        own.hit = asks.NEVER
+        return own
+
+    def _be_formula(self, *inputs: Any) -> None:
+        """Answer with `function(None, *values)` of these signals."""
+        self.inputs = (self._contents(), *inputs)
+        self.kind = asks.FORMULA
+
+    def _be_computed(self) -> None:
+        """Answer with `rule()`, which notes `self.own` before it reads others."""
+        self._contents()
+        self.inputs = ()
+        self.kind = asks.COMPUTED
+
+

@@ -1,0 +1,232 @@
+"""Where signals begin: time, variables, parameters."""
+
+import math
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from reactive4d.arrays import freeze
+from reactive4d.engine import Axis, Engine, Source
+from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
+from reactive4d.signals.settables import Settable
+from reactive4d.signals.signal import Signal
+
+__all__ = ["Parameter", "Time", "Variable", "time"]
+
+T = TypeVar("T")
+INF = math.inf
+MOST_VISITED = 1000
+
+
+class Time(Signal[float], Source):
+    """Time itself: answers with the instant at which it is asked, and holds for that instant only."""
+
+    __slots__ = ()
+
+    unchanging = True
+
+    def sample(self, t: float) -> tuple[float, float, float]:
+        """The instant."""
+        return t, math.nextafter(t, INF), t
+
+    def sample_many(self, ts: Any) -> Any:
+        """The times themselves."""
+        return ts
+
+
+time: Time = Time(None, name="time")
+
+
+class Variable(Settable[T], Generic[T]):
+    """A free signal that can be set, to a constant or to another signal.
+
+    >>> import reactive4d as r4
+    >>> x = Variable(2.0, name="x")
+    >>> y = x * 10
+    >>> y.at(0.0)
+    20.0
+    >>> x.value = r4.time
+    >>> y.at(3.0)
+    30.0
+    """
+
+    __slots__ = ()
+
+    def __init__(self, value: Any, *, name: str | None = None, engine: Engine | None = None) -> None:
+        """Start with a constant or a signal.
+
+        Raises:
+            ShapeError: the constant is NaN or holds one.
+        """
+        super().__init__(_constant(value, name or "variable"), name=name or "variable", engine=engine)
+
+    @property
+    def value(self) -> Any:
+        """What was set: the constant or the signal. To ask for an answer use `.at(t)`."""
+        return self.content
+
+    @value.setter
+    def value(self, value: Any) -> None:
+        content = _constant(value, self.name)
+        if isinstance(content, Signal):
+            refuse_reading_itself(self, content)
+        self.set_content(content)
+
+    @property
+    def source(self) -> Any:
+        """What was set: the constant or the signal."""
+        return self.content
+
+    def adopt(self) -> None:
+        """A constant makes it a source, a signal a formula that passes that one on."""
+        if isinstance(self.content, Signal):
+            self._be_formula(self.content)
+        else:
+            self._be_source()
+
+    def function(self, *values: Any) -> Any:
+        """The value of the signal that was set."""
+        return values[1]
+
+    def vectorised(self, *values: Any) -> Any:
+        """The values of the signal that was set."""
+        return values[1]
+
+
+def _constant(value: Any, name: str) -> Any:
+    """A value that can be shared: arrays are frozen copies, lists of numbers become arrays."""
+    if isinstance(value, Signal):
+        return value
+    if isinstance(value, list | np.ndarray) or (isinstance(value, tuple) and _is_numeric(value)):
+        try:
+            array = np.array(value, dtype=np.float64)
+        except (TypeError, ValueError):
+            error = ShapeError(f"{name}: expected numbers, got {value!r}")
+            raise hint(error, "for a vector of signals use vec(x, y, z)") from None
+        if np.isnan(array).any():
+            raise ShapeError(f"{name}: {value!r} holds nan")
+        return freeze(array)
+    if isinstance(value, float | np.floating):
+        if math.isnan(value):
+            raise ShapeError(f"{name}: nan is not a value")
+        return float(value)
+    if isinstance(value, np.bool_ | np.integer):
+        return value.item()
+    return value
+
+
+def _is_numeric(value: tuple[Any, ...]) -> bool:
+    return bool(value) and all(isinstance(x, int | float | np.number) or (type(x) is tuple and _is_numeric(x)) for x in value)
+
+
+def refuse_reading_itself(target: Signal[Any], content: Signal[Any]) -> None:
+    """Raise if what is assigned reads the target at the same instant, as far as declared inputs tell."""
+    todo: list[Any] = [content]
+    seen: set[int] = set()
+    while todo and len(seen) < MOST_VISITED:
+        cell = todo.pop()
+        if cell is target:
+            error = Reactive4dError(f"{target.name} would read itself")
+            raise hint(error, f"use what was assigned before: {target.name}.source; or its past: {target.name}.delay(0.1)")
+        if id(cell) in seen or type(cell) is tuple:
+            continue
+        seen.add(id(cell))
+        todo.extend(cell.inputs)
+
+
+class Parameter(Signal[T], Axis):
+    """An axis that a reader drives: asked with `.at(t, name=value)`, else it has its default.
+
+    Args:
+        name: an identifier; every signal below which the parameter lies is asked with it.
+        default: a number, a whole number, a truth value, a string, or a tuple of numbers. Its type is the parameter's:
+            0.0 makes a number, 0 a whole number.
+        bounds: lowest and highest value, both allowed.
+        doc: what it means, with its unit.
+
+    Raises:
+        ParameterError: the name is no identifier, or the default does not lie within the bounds.
+
+    >>> length = Parameter("length", 1.0, bounds=(0.2, 2.0), doc="length of the rod [m]")
+    >>> (2 * length).at(0.0), (2 * length).at(0.0, length=1.5)
+    (2.0, 3.0)
+    """
+
+    __slots__ = ("bounds", "doc")
+
+    def __init__(
+        self,
+        name: str,
+        default: Any,
+        *,
+        bounds: tuple[Any, Any] | None = None,
+        doc: str = "",
+        engine: Engine | None = None,
+    ) -> None:
+        if not name.isidentifier() or name in ("t", "self"):
+            error = ParameterError(f"{name!r} is not a name for a parameter")
+            raise hint(error, "it is used as a keyword: letters, digits and _, and not `t`")
+        if bounds is not None:
+            if len(bounds) != 2 or not bounds[0] <= bounds[1]:
+                raise ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
+        self.bounds = bounds
+        self.doc = doc
+        self.default = None
+        self.default = _plain(default)
+        super().__init__(name, default, engine=engine)
+
+    def admit(self, value: Any) -> Any:
+        """The value as this parameter understands it.
+
+        Raises:
+            ParameterError: it is of another type, or out of bounds.
+        """
+        plain = _plain(value)
+        kind, given = type(self.default), type(plain)
+        if kind is float and given in (int, bool, float):
+            plain = float(plain) + 0.0  # -0.0 becomes 0.0: equal values are one value
+            if plain != plain:
+                raise ParameterError(f"{self.name}: nan is not a value")
+        elif kind is int and given in (int, bool, float) and plain == plain and abs(plain) != INF and plain == int(plain):
+            plain = int(plain)
+        elif kind is bool and plain in (0, 1):
+            plain = bool(plain)
+        elif kind is tuple and given is tuple and len(plain) == len(self.default):
+            if any(x != x for x in plain):
+                raise ParameterError(f"{self.name}: {value!r} holds nan")
+        elif given is not kind:
+            error = ParameterError(f"{self.name}: expected {_described(self.default)}, got {value!r}")
+            if kind is int and given is float:
+                raise hint(error, f"its default is {self.default!r}; a default of {float(self.default)!r} takes any number")
+            raise error
+        if self.bounds is not None:
+            lowest, highest = self.bounds
+            values = plain if given is tuple else (plain,)
+            if not all(lowest <= x <= highest for x in values):
+                raise ParameterError(f"{self.name}: {value!r} is not within {lowest!r} and {highest!r}")
+        return plain
+
+    def present(self, value: Any) -> Any:
+        """Several numbers are answered as an array."""
+        return freeze(np.array(value, dtype=np.float64)) if type(value) is tuple else value
+
+
+def _plain(value: Any) -> Any:
+    """The value in Python's own types: numbers, truth values, strings, tuples of floats."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        try:
+            return tuple([float(x) + 0.0 for x in value])
+        except (TypeError, ValueError):
+            raise ParameterError(f"expected numbers, got {value!r}") from None
+    return value
+
+
+def _described(default: Any) -> str:
+    if isinstance(default, tuple):
+        return f"{len(default)} numbers"
+    names = {float: "a number", int: "a whole number", bool: "True or False", str: "a string"}
+    return names.get(type(default), f"a {type(default).__name__}")
