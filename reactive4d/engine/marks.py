@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 __all__ = ["mark", "push"]
 
+INF = float("inf")
+MOST_STEPS = 256  # marks of one reader along one walk, after which the walk goes to the end of time at once
+
 
 def mark(engine: "Engine", cell: "Cell", lo: float, hi: float) -> tuple[float, float] | None:
     """Put what a cell remembers over [lo, hi) in check; returns where something was clean, or None."""
@@ -33,6 +36,7 @@ def mark(engine: "Engine", cell: "Cell", lo: float, hi: float) -> tuple[float, f
 def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
     """Mark everything that reads a cell over [lo, hi), directly or through others."""
     stack = [(cell, lo, hi)]
+    walks: dict[Cell, tuple[int, float]] = {}
     while stack:
         cell, lo, hi = stack.pop()
         readers = cell.readers
@@ -49,6 +53,12 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
             continue
         for reader, maps in readers_of(cell):
             for a, b in preimages(maps, lo, hi):
+                if maps is not None:
+                    steps, before = walks.get(reader, (0, a))
+                    walks[reader] = steps + 1, a
+                    if steps > MOST_STEPS:
+                        # It reads its own past (or future): everything after (or before) will be reached.
+                        a, b = (a, INF) if a > before else (-INF, b)
                 changed = mark(engine, reader, a, b)
                 if changed is not None:
                     stack.append((reader, *changed))
