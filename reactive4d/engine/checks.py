@@ -1,6 +1,7 @@
 """The invariants, verified: for tests, before and after every step."""
 
 from collections.abc import Iterable
+from sys import float_info
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.evictions import tables
@@ -75,7 +76,7 @@ def _check_clean(engine: "Engine", cell: "Cell", segment: "Segment", *, is_main:
             continue
         time_map = entry[1] if type(entry) is tuple else None
         for t in _probes(segment):
-            at = t if time_map is None else time_map.forward(t)
+            at = t if time_map is None else min(time_map.forward(t), float_info.max)
             if source.kind == 0:
                 found = piece(source.stamps, at)[2]
                 assert found == stamp, f"{cell.name} {segment} read {source.name} at {at} with {stamp}, it has {found}"
