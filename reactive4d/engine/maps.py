@@ -6,6 +6,7 @@ it and never misses one. Rounding is by one unit in the last place, inwards for 
 """
 
 import math
+import sys
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
@@ -99,6 +100,11 @@ class Fixed(TimeMap):
     """Reads at one fixed time, whenever the reader is asked."""
 
     time: float
+
+    def __post_init__(self) -> None:
+        """Let `inf` be the largest float, with which it shares its instant."""
+        if self.time == INF:
+            object.__setattr__(self, "time", sys.float_info.max)
 
     def forward(self, t: float) -> float:
         """The fixed time."""
