@@ -58,7 +58,10 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
                     walks[reader] = steps + 1, a
                     if steps > MOST_STEPS:
                         # It reads its own past (or future): everything after (or before) will be reached.
-                        a, b = (a, INF) if a > before else (-INF, b)
+                        if steps > 2 * MOST_STEPS:
+                            a, b = -INF, INF
+                        else:
+                            a, b = (a, INF) if a > before else (-INF, b)
                 changed = mark(engine, reader, a, b)
                 if changed is not None:
                     stack.append((reader, *changed))
