@@ -161,9 +161,9 @@ def bring(engine: "Engine", cell: "Cell", t: float, point: "Point | None", me: M
     parent: Task | None = me.frame
     try:
         while True:
+            if engine.owner is not None and engine.owner is not me:
+                wait_for_transaction(engine, me)
             if want is not None:
-                if engine.owner is not None and engine.owner is not me:
-                    wait_for_transaction(engine, me)
                 hit = peek(engine, want, t, point)
                 if hit is not None:
                     if engine.logs:
