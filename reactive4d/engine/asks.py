@@ -617,6 +617,13 @@ def _axes_of(cell: "Cell", table: Table) -> "tuple[Axis, ...] | None":
     return None
 
 
+def _alike(these: tuple[Content, ...], those: tuple[Content, ...]) -> bool:
+    """Whether two segments said the same before: an older content holds only where it was found."""
+    return len(these) == len(those) and all(
+        a[1] == b[1] and a[3] == b[3] and a[2] == b[2] for a, b in zip(these, those, strict=True)
+    )
+
+
 def _merge(table: Table, segment: Segment) -> None:
     """Make one of a segment and a clean neighbour that says the same for the same reasons."""
     segments = table.segments
@@ -633,8 +640,10 @@ def _merge(table: Table, segment: Segment) -> None:
                 and left.stamp == right.stamp
                 and left.stamps == right.stamps
                 and left.reads == right.reads
+                and (left.older is right.older or _alike(left.older, right.older))
             ):
                 left.hi = right.hi
+                left.retired = min(left.retired, right.retired)
                 if right is segment:
                     # Keep the object that others hold in hand.
                     segment.lo, segment.hi = left.lo, right.hi
