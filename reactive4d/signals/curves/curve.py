@@ -3,7 +3,7 @@
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
-from typing import Any, Final, final
+from typing import Any, Final, cast, final
 
 import numpy as np
 
@@ -461,7 +461,8 @@ def _restore(times: Any, keys: Any, settings: Any, degree: int) -> Curve:
 
 def _in_order(points: Mapping[Any, Any] | Iterable[tuple[Any, Any]]) -> tuple[list[float], list[Key]]:
     try:
-        pairs = [(t, value) for t, value in (cast(Any, points).items() if isinstance(points, Mapping) else points)]
+        line = cast(Any, points.items() if isinstance(points, Mapping) else points)
+        pairs: list[tuple[Any, Any]] = [(t, value) for t, value in line]
     except (TypeError, ValueError):
         error = ShapeError(f"expected a mapping of times to values, got {points!r}")
         raise hint(error, "keys({0: a, 1.5: b})") from None
