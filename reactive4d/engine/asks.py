@@ -643,7 +643,7 @@ def _merge(table: Table, segment: Segment) -> None:
                 and (left.older is right.older or _alike(left.older, right.older))
             ):
                 left.hi = right.hi
-                left.retired = min(left.retired, right.retired)
+                left.retired = right.retired = min(left.retired, right.retired)
                 if right is segment:
                     # Keep the object that others hold in hand.
                     segment.lo, segment.hi = left.lo, right.hi
