@@ -127,7 +127,7 @@ class Cell(Table):
             raise TimeError(f"{self.name} asked at t = nan")
         if t == INF:
             return self._hit_at(sys.float_info.max, parameters)  # with which it shares its instant
-        return asks.ask(self, t, point)
+        return asks.ask(self, t + 0.0, point)  # -0.0 is the same instant as 0.0
 
     def valid(self, t: float, **parameters: Any) -> Interval:
         """An interval round `t` over which the answer holds: sound, but not always the largest."""

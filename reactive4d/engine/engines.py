@@ -149,7 +149,7 @@ class Engine:
             t = time_map.forward(t)
             if t != t:
                 raise TimeError(f"{cell.name} asked at t = nan, by {time_map!r}")
-            t = min(t, LATEST)
+            t = min(t, LATEST) + 0.0
         if overrides is not None:
             given = {**point.given, **dict(overrides)} if point is not None else dict(overrides)
             key = tuple(sorted(given.items()))
@@ -183,7 +183,7 @@ class Engine:
         point = self.point(parameters) if parameters else None
         WATCH[0] += 1
         try:
-            value = naive.evaluate(cell, min(float(t), LATEST), point)
+            value = naive.evaluate(cell, min(float(t), LATEST) + 0.0, point)
         except CycleFound as found:
             from reactive4d.engine.asks import cycle_error
 
