@@ -132,6 +132,22 @@ class Interval:
         start = max(self.start, other.start)
         return Interval(start, max(start, min(self.stop, other.stop)))
 
+    def __or__(self, other: "Interval | IntervalSet") -> "IntervalSet":
+        """The times that lie in either; a set, for there may be a gap.
+
+        >>> Interval(0, 2) | Interval(1, 4), Interval(0, 1) | Interval(2, 3)
+        ({[0, 4)}, {[0, 1), [2, 3)})
+        """
+        return IntervalSet([self]) | other
+
+    def __sub__(self, other: "Interval | IntervalSet") -> "IntervalSet":
+        """The times that lie in this one and not in the other.
+
+        >>> Interval(0, 4) - Interval(1, 2)
+        {[0, 1), [2, 4)}
+        """
+        return IntervalSet([self]) - other
+
     def intersection(self, other: "Interval") -> "Interval":
         """What `&` answers."""
         return self & other
@@ -213,6 +229,8 @@ class IntervalSet:
     _ends: tuple[float, ...]  # start, stop, start, stop, ... strictly increasing: the times where membership changes
 
     def __init__(self, intervals: _Pieces = ()) -> None:
+        if isinstance(intervals, Interval):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise hint(TimeError(f"expected several intervals, got {intervals!r} alone"), "IntervalSet([interval])")
         pieces = (piece if type(piece) is Interval else _interval(piece) for piece in intervals)
         ends: list[float] = []
         # Sorting what is in order already costs one pass, so mapping and combining stay linear.
@@ -274,14 +292,8 @@ class IntervalSet:
         """
         return IntervalSet([FOREVER]) - self
 
-    __ror__ = __or__
     __rand__ = __and__
     __invert__ = complement
-
-    def __rsub__(self, other: Interval) -> "IntervalSet":
-        if type(other) is not Interval:
-            return NotImplemented
-        return IntervalSet([other]) - self
 
     def shift(self, offset: float) -> "IntervalSet":
         """The set `offset` seconds later (see `Interval.shift`).

@@ -2,6 +2,7 @@
 
 import copy
 import math
+import operator
 import pickle
 from itertools import pairwise
 from typing import Any
@@ -97,6 +98,7 @@ def test_an_interval_combines_with_a_set_from_either_side(a: IntervalSet, pair: 
     alone = IntervalSet([span])
     assert (a | span, a & span, a - span) == (a | alone, a & alone, a - alone)
     assert (span | a, span & a, span - a) == (alone | a, alone & a, alone - a)
+    assert (span | span, span - span) == (alone, IntervalSet())
 
 
 @given(sets, sets, quarters, dyadic, quarters, st.booleans())
@@ -309,13 +311,21 @@ def test_a_piece_that_is_no_interval_is_refused(bad: Any) -> None:
         IntervalSet([bad])
 
 
+def test_a_lone_interval_is_no_set_of_them() -> None:
+    """It has to be put in a list, and the note says so."""
+    with pytest.raises(TimeError, match="alone"):
+        IntervalSet(Interval(0, 1))  # type: ignore[arg-type]
+
+
 def test_other_things_do_not_combine() -> None:
     """Operators refuse what is neither an interval nor a set, as Python's own sets do."""
     for thing in (Interval(0, 1), IntervalSet([(0, 1)])):
-        with pytest.raises(TypeError):
-            thing & 5  # type: ignore[operator]
-    with pytest.raises(TypeError):
-        5 - IntervalSet()  # type: ignore[operator]
+        for combine in (operator.and_, operator.or_, operator.sub):
+            for other in (5, None, (0, 1)):
+                with pytest.raises(TypeError):
+                    combine(thing, other)
+                with pytest.raises(TypeError):
+                    combine(other, thing)
     assert IntervalSet() != ()
 
 
