@@ -75,7 +75,7 @@ class Easing:
     def __call__(self, u: Array) -> Array: ...
     def __call__(self, u: float | Array) -> float | Array:
         """How far along at `u`: a float for a float, an array of float64 for an array of any shape."""
-        return self.array(u) if isinstance(u, np.ndarray) else self.scalar(u)
+        return self.array(u) if isinstance(u, np.ndarray) else self.scalar(float(u))
 
     def __repr__(self) -> str:
         return f"easing({self.name!r})" if self.function is None else f"easing({self.name})"
@@ -118,9 +118,13 @@ def _made_of(function: Callable[[float], float]) -> Easing:
         if not 0.0 < u < 1.0:
             return _end(u)
         answer: Any = function(u)
-        if not isinstance(answer, Real) or not math.isfinite(answer):
+        try:
+            share = float(answer) if isinstance(answer, Real) else math.nan
+        except OverflowError:
+            share = math.inf
+        if not math.isfinite(share):
             raise ShapeError(f"the easing {name} answered {answer!r} for {u!r}, expected a finite number")
-        return float(answer)
+        return share
 
     def array(us: Array) -> Array:
         return np.array([scalar(u) for u in us.ravel().tolist()], dtype=np.float64).reshape(us.shape)
@@ -224,7 +228,7 @@ def _easing(name: str, curve: _Curve, slope: _Slope) -> Easing:
         return curve(u, math) if 0.0 < u < 1.0 else _end(u)
 
     def array(us: Array) -> Array:
-        inside = curve(np.clip(us, 0.0, 1.0), np)
+        inside = curve(np.clip(us, 0.0, 1.0, dtype=np.float64), np)
         return np.where(us <= 0.0, 0.0, np.where(us >= 1.0, 1.0, inside))
 
     def inner_slope(u: float) -> float:

@@ -53,6 +53,9 @@ def test_the_form_for_floats_and_the_form_for_arrays_agree(name: str, u: float) 
     assert isinstance(ease(u), float)
     assert ease(np.array([[u], [0.5]])) == pytest.approx(np.array([[ease(u)], [ease(0.5)]]), abs=1e-12)
     assert ease(np.array(u)).shape == ()
+    assert type(ease(np.float64(u))) is float
+    assert ease(np.array([0, 0.5, 1], dtype=np.float32)).dtype == np.float64
+    assert ease(np.array([0, 1, 2])).tolist() == [0, 1, 1]
 
 
 @pytest.mark.parametrize("name", EASINGS)
@@ -216,7 +219,7 @@ def test_what_is_neither_name_nor_function_is_refused(bad: Any) -> None:
         easing(bad)
 
 
-@pytest.mark.parametrize("answer", [math.nan, math.inf, "0.5", None, 1j, [0.5]])
+@pytest.mark.parametrize("answer", [math.nan, math.inf, "0.5", None, 1j, [0.5], 10**400])
 def test_a_function_that_answers_no_number_is_named(answer: Any) -> None:
     """The message says which function, what it answered, and for what."""
     with pytest.raises(ShapeError, match=r"easing .*answered .* for 0\.5, expected a finite number"):
