@@ -16,7 +16,7 @@ from typing import Any, Literal, NoReturn, Self, TypeAlias, cast, final, overloa
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reactive4d.errors import ShapeError, hint
+from reactive4d.errors import ShapeError, hint, unknown
 
 __all__ = [
     "Rotation",
@@ -55,6 +55,7 @@ class Rotation:
     """
 
     __slots__ = ("_wxyz",)
+    __array_ufunc__ = None  # arrays do not take a rotation apart: `array * rotation` is an error of type
     _wxyz: _Quaternion
 
     def __init__(self, quaternion: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> None:
@@ -79,12 +80,18 @@ class Rotation:
             angle: degrees; whole turns make no difference.
 
         Raises:
+            UnknownNameError: `axis` is another letter.
             ShapeError: `axis` is not three finite numbers or has no direction; `angle` is not finite.
 
         >>> Rotation.from_axis_angle((0, 0, 2), -450)
         Rotation(90° about (0, 0, -1))
         """
-        direction = _AXES[axis] if isinstance(axis, str) and axis in _AXES else _direction(axis, "axis")
+        if isinstance(axis, str):
+            if axis not in _AXES:
+                raise unknown(axis, _AXES, what="axis")
+            direction = _AXES[axis]
+        else:
+            direction = _direction(axis, "axis")
         sine, cosine = _half_angle(_number(angle, "angle"))
         x, y, z = direction
         return cls._of((cosine, sine * x, sine * y, sine * z))
@@ -289,7 +296,7 @@ def slerp(a: Rotation, b: Rotation, u: float | Array | Sequence[float]) -> Rotat
         A rotation, or N of them.
 
     Raises:
-        ShapeError: `u` is not finite, or neither a number nor (N,).
+        ShapeError: `a` or `b` is no rotation; `u` is not finite, or neither a number nor (N,).
 
     This is Shoemake's interpolation (1985). Half a turn apart, both ways are equally short; the one between the
     canonical quaternions is taken, and rounding does not choose the other.
@@ -298,6 +305,8 @@ def slerp(a: Rotation, b: Rotation, u: float | Array | Sequence[float]) -> Rotat
     >>> slerp(a, b, 0.25), slerp(a, b, [0, 1]) == (a, b)
     (Rotation(5° about (0, 0, 1)), True)
     """
+    if type(a) is not Rotation or type(b) is not Rotation:
+        raise ShapeError(f"expected two rotations, got {a!r} and {b!r}")
     if type(u) is float and -math.inf < u < math.inf:
         return Rotation._of(_slerp(a._wxyz, b._wxyz, u))  # pyright: ignore[reportPrivateUsage]
     us = _array(u, "u")
