@@ -64,7 +64,9 @@ def _add(source: "Cell", ref: Any, time_map: TimeMap | None) -> None:
         return
     if type(readers) is not Readers:
         source.readers = table = Readers()
-        if readers is not None:
+        # Held while its reference is hashed for the first time, which needs it alive.
+        reader = readers() if readers is not None else None
+        if reader is not None:
             table[readers] = None
         readers = table
     if ref in readers:
