@@ -1,7 +1,8 @@
 """The graphs by which signal libraries are usually measured, written from their definitions.
 
 Each is a function of a library and of sizes; it builds the graph and returns its step: make the i-th edit, look at
-what is watched, and return the sum of what was seen, so that all contenders can be held against each other.
+what is watched, and return the sum of what was seen, so that all contenders can be held against each other. Values
+are floats, whole ones, so that sums are exact.
 """
 
 import random
@@ -33,7 +34,7 @@ Step = Callable[[int], Any]
 
 def chain(lib: Library, *, length: int) -> Step:
     """A chain: head --> +1 --> +1 --> ... --> viewer."""
-    head = last = lib.source(-1)
+    head = last = lib.source(-1.0)
     for _ in range(length):
         last = lib.cell(INCREMENT, last)
     return _step(lib, [head], [last])
@@ -41,26 +42,26 @@ def chain(lib: Library, *, length: int) -> Step:
 
 def fan(lib: Library, *, width: int) -> Step:
     """A fan: head --> width cells, each with a viewer."""
-    head = lib.source(-1)
+    head = lib.source(-1.0)
     return _step(lib, [head], [lib.cell(plus(index), head) for index in range(width)])
 
 
 def diamond(lib: Library, *, width: int) -> Step:
     """A diamond: head --> width cells --> their sum --> viewer."""
-    head = lib.source(-1)
+    head = lib.source(-1.0)
     middle = [lib.cell(plus(index), head) for index in range(width)]
     return _step(lib, [head], [lib.cell(TOTAL, *middle)])
 
 
 def broad(lib: Library, *, width: int) -> Step:
     """Broad: head --> width cells --> a child each --> viewers."""
-    head = lib.source(-1)
+    head = lib.source(-1.0)
     return _step(lib, [head], [lib.cell(INCREMENT, lib.cell(plus(index), head)) for index in range(width)])
 
 
 def triangle(lib: Library, *, width: int) -> Step:
     """A chain whose members are all summed."""
-    current = head = lib.source(-1)
+    current = head = lib.source(-1.0)
     members = []
     for _ in range(width):
         members.append(current)
@@ -70,7 +71,7 @@ def triangle(lib: Library, *, width: int) -> Step:
 
 def mux(lib: Library, *, width: int, batch: int) -> Step:
     """A multiplexer: width heads --> one tuple of them all --> its members, one cell each --> +1 --> viewers."""
-    heads = [lib.source(-1) for _ in range(width)]
+    heads = [lib.source(-1.0) for _ in range(width)]
     gathered = lib.cell(GATHER, *heads)
     members = [lib.cell(INCREMENT, lib.cell(item(index), gathered)) for index in range(width)]
     return _step(lib, heads, members, batch=batch)
@@ -78,7 +79,7 @@ def mux(lib: Library, *, width: int, batch: int) -> Step:
 
 def avoidable(lib: Library, *, length: int) -> Step:
     """Avoidable work: head --> same --> 0 --> a chain that need never run again --> viewer."""
-    head = lib.source(1)
+    head = lib.source(1.0)
     last = lib.cell(ZERO, lib.cell(SAME, head))
     for _ in range(length):
         last = lib.cell(INCREMENT, last)
@@ -87,13 +88,13 @@ def avoidable(lib: Library, *, length: int) -> Step:
 
 def unstable(lib: Library) -> Step:
     """Unstable: head --> twice, negated; a cell reads head and one of them, another one at every edit, twenty times."""
-    head = lib.source(-1)
+    head = lib.source(-1.0)
     return _step(lib, [head], [lib.cell(HEAD_OR_TAIL, head, lib.cell(TWICE, head), lib.cell(NEGATE, head))])
 
 
 def repeated(lib: Library, *, times: int) -> Step:
     """A cell that reads head over and over."""
-    head = lib.source(-1)
+    head = lib.source(-1.0)
     return _step(lib, [head], [lib.cell(TOTAL, *[head] * times)])
 
 
@@ -112,7 +113,7 @@ def layered(
         batch: how many sources are written before somebody looks.
     """
     draw = random.Random(width * 1000 + layers)
-    sources = row = [lib.source(-1 - index) for index in range(width)]
+    sources = row = [lib.source(-1.0 - index) for index in range(width)]
     reach = min(width, spread * inputs) if spread else width
     for _ in range(layers - 1):
         row = [
@@ -127,7 +128,7 @@ def layered(
 
 def ladder(lib: Library, *, layers: int) -> Step:
     """Two cells on each layer, both read both of the layer before; on every layer a viewer."""
-    left = right = head = lib.source(-1)
+    left = right = head = lib.source(-1.0)
     watched = []
     for _ in range(layers):
         left, right = lib.cell(MIX, left, right), lib.cell(DIFFERENCE, lib.cell(TWICE, left), right)
@@ -144,13 +145,13 @@ def _step(lib: Library, sources: list[Any], watched: list[Any], *, batch: int = 
         look = looks[0]
 
         def step(i: int) -> Any:
-            writes[i % count](i)
+            writes[i % count](float(i))
             return look()
 
     elif batch == 1:
 
         def step(i: int) -> Any:
-            writes[i % count](i)
+            writes[i % count](float(i))
             return sum([look() for look in looks])
 
     else:
@@ -158,7 +159,7 @@ def _step(lib: Library, sources: list[Any], watched: list[Any], *, batch: int = 
         def step(i: int) -> Any:
             with lib.batch():
                 for place in range(i * batch, (i + 1) * batch):
-                    writes[place % count](place)
+                    writes[place % count](float(place))
             return sum([look() for look in looks])
 
     return step

@@ -22,7 +22,7 @@ __all__ = [
     "plus",
 ]
 
-MODULUS = 1_000_003  # Keeps the sums of deep graphs small, and hardly ever makes two of them equal.
+MODULUS = 1_000_003.0  # Keeps the sums of deep graphs small, and hardly ever makes two of them equal.
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def _pick(*reads: Callable[[], Any]) -> Callable[[], Any]:
 
 def _head_or_tail(head: Callable[[], Any], one: Callable[[], Any], other: Callable[[], Any]) -> Callable[[], Any]:
     def rule() -> Any:
-        total = 0
+        total = 0.0
         for _ in range(20):
             total += one() if head() % 2 else other()
         return total
@@ -72,11 +72,11 @@ def _head_or_tail(head: Callable[[], Any], one: Callable[[], Any], other: Callab
     return rule
 
 
-INCREMENT = Operation(lambda a: a + 1, lambda a: lambda: a() + 1)
-TWICE = Operation(lambda a: a * 2, lambda a: lambda: a() * 2)
+INCREMENT = Operation(lambda a: a + 1.0, lambda a: lambda: a() + 1.0)
+TWICE = Operation(lambda a: a * 2.0, lambda a: lambda: a() * 2.0)
 NEGATE = Operation(lambda a: -a, lambda a: lambda: -a())
 SAME = Operation(lambda a: a, lambda a: lambda: a())
-ZERO = Operation(lambda a: 0 * a, lambda a: lambda: 0 * a())
+ZERO = Operation(lambda a: 0.0 * a, lambda a: lambda: 0.0 * a())
 DIFFERENCE = Operation(lambda a, b: (a - b) % MODULUS, lambda a, b: lambda: (a() - b()) % MODULUS)
 MIX = Operation(_mix, lambda *reads: lambda: sum([read() for read in reads]) % MODULUS)
 TOTAL = Operation(_total, lambda *reads: lambda: sum([read() for read in reads]))
@@ -85,7 +85,7 @@ PICK = Operation(None, _pick)
 HEAD_OR_TAIL = Operation(None, _head_or_tail)
 
 
-def plus(amount: int) -> Operation:
+def plus(amount: float) -> Operation:
     """Adds a fixed amount."""
     return Operation(lambda a: a + amount, lambda a: lambda: a() + amount)
 
