@@ -6,10 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 from reactive4d import arrays
-from reactive4d.engine import Cell, Engine, Event, Source
+from reactive4d.engine import Cell, Computed, Engine, Event, Formula, Source
 
 __all__ = [
     "INF",
+    "Case",
     "Clock",
     "Counted",
     "LinearSource",
@@ -188,3 +189,52 @@ def evaluated(log: list[Event]) -> list[str]:
     names = [event.name for event in log if event.kind == "evaluated"]
     log.clear()
     return names
+
+
+class Case:
+    """A small graph under test, asked through one of the two evaluators."""
+
+    def __init__(self, *, remembers: bool = True, **options: Any) -> None:
+        self.remembers = remembers
+        self.engine = make_engine(**options)
+        self.counters: dict[Cell, Counted] = {}
+
+    def ask(self, cell: Cell, t: float = 0.0, **parameters: Any) -> Any:
+        """The answer, by the evaluator of this case."""
+        return cell.at(t, **parameters) if self.remembers else self.engine.naive(cell, t, **parameters)
+
+    def source(self, content: Any, name: str = "s") -> Source:
+        """A constant that can be set."""
+        return Source(content, name=name, engine=self.engine)
+
+    def steps(self, keys: dict[float, Any], name: str = "s") -> StepSource:
+        """Step keys."""
+        return StepSource(tuple(sorted(keys.items())), name=name, engine=self.engine)
+
+    def formula(self, name: str, function: Callable[..., Any], *inputs: Cell, **options: Any) -> Formula:
+        """A counted formula."""
+        counter = Counted(function)
+        cell = Formula(counter, *inputs, name=name, engine=self.engine, **options)
+        self.counters[cell] = counter
+        return cell
+
+    def rule(self, name: str, rule: Callable[[], Any]) -> Computed:
+        """A counted opaque rule."""
+        counter = Counted(rule)
+        cell = Computed(counter, name=name, engine=self.engine)
+        self.counters[cell] = counter
+        return cell
+
+    def ran(self) -> dict[str, int]:
+        """How often each rule ran since this was asked last, without those that did not."""
+        counts = {cell.name: counter.taken() for cell, counter in self.counters.items()}
+        return {name: count for name, count in counts.items() if count}
+
+    def expect(self, **counts: int) -> None:
+        """Assert how often each rule ran: exactly so where answers are remembered, at least so where they are not."""
+        ran = self.ran()
+        if self.remembers:
+            assert ran == {name: count for name, count in counts.items() if count}
+            self.engine.check(self.counters)
+        else:
+            assert all(ran.get(name, 0) >= count for name, count in counts.items())

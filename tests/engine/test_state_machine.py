@@ -8,7 +8,6 @@ import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
-
 from models import answer, naive_answer, same_answer
 from worlds import BUDGETS, Mismatch, Seeded, World, fuzz
 

@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
-
 from models import (
     INF,
     Clock,
@@ -21,6 +20,7 @@ from models import (
     naive_answer,
     same_answer,
 )
+
 from reactive4d.engine import Affine, Axis, Cell, Computed, Fixed, Formula, Source, moment, narrow
 
 __all__ = ["Choices", "Mismatch", "Seeded", "World", "fuzz"]
@@ -75,7 +75,7 @@ def number(value: Any) -> float:
     """Any answer as a float."""
     if isinstance(value, float):
         return value
-    return float(np.sum(value))
+    return float(sum(np.ravel(value).tolist()))
 
 
 def _add(*values: Any) -> Any:
@@ -180,8 +180,8 @@ class World:
 
     # -- cells -----------------------------------------------------------------------------------------------------
 
-    def make(self, name: str) -> Cell:
-        """A formula or an opaque rule over what there is."""
+    def make(self, name: str, *, mine: bool = True) -> Cell:
+        """A formula or an opaque rule over what there is; only the world's own ones may read their past."""
         recent = [*self.readable, *self.rules, *self.rules]
         inputs = [self.pick(recent) for _ in range(1 + self.choices.number(3))]
         how = self.choices.number(5)
@@ -190,13 +190,11 @@ class World:
         if how == 1:
             maps = tuple(self.pick(MAPS) if self.chance(2) else None for _ in inputs)
             return Formula(self.pick(FUNCTIONS), *inputs, maps=maps, name=name, engine=self.engine)
-        rule = self.rule(inputs, recent)
-        cell = Computed(rule, name=name, engine=self.engine)
-        return cell
+        return Computed(self.rule(inputs, recent, past=mine), name=name, engine=self.engine)
 
     def read(self, cell: Cell) -> Callable[[], Any]:
         """One way of reading a cell."""
-        how = self.choices.number(8)
+        how = self.choices.number(10)
         if how == 0:
             time_map = self.pick(MAPS)
             return lambda: cell.through(time_map)
@@ -208,7 +206,16 @@ class World:
             return lambda: cell.at(t, **given)
         if how == 3 and isinstance(cell, StepSource):
             return lambda: self._noted(cell)
+        if how == 4:
+            given = self.parameters()
+            return lambda: self._at_moment(cell, given)
         return cell.now
+
+    @staticmethod
+    def _at_moment(cell: Cell, given: dict[str, Any]) -> Any:
+        t = moment()
+        narrow(t, math.nextafter(t, INF))
+        return cell.at(t, **given)
 
     @staticmethod
     def _noted(cell: StepSource) -> Any:
@@ -220,7 +227,7 @@ class World:
         narrow(before[-1] if before else -INF, after[0] if after else INF)
         return dict(keys)[before[-1] if before else times[0]]
 
-    def rule(self, inputs: list[Cell], recent: list[Cell]) -> Callable[[], Any]:
+    def rule(self, inputs: list[Cell], recent: list[Cell], *, past: bool) -> Callable[[], Any]:
         """An opaque rule."""
         reads = [self.read(cell) for cell in inputs]
         function = self.pick(FUNCTIONS)
@@ -236,7 +243,7 @@ class World:
             return self._pieces(reads[0], self.read(self.pick(recent)), self.pick(GRID))
         if how == 4:
             return self._twice(reads[0], inputs[0])
-        if how == 5:
+        if how == 5 and past:
             return self._past(reads[0], self.pick([0.5, 1.0, 1.5]))
         if how == 6:
             return self._wandering(reads[0], inputs[-1])
@@ -391,6 +398,12 @@ class World:
             done.append("failed")
         return f"transaction({', '.join(done)})"
 
+    def pass_by(self) -> str:
+        """A cell that nobody holds: it is asked, and gone."""
+        cell = self.make("passing", mine=False)
+        self.compare(cell, self.time(), self.parameters())
+        return "a cell came and went"
+
     def rebudget(self) -> str:
         """Another budget."""
         self.engine.budget = self.pick(BUDGETS)
@@ -411,6 +424,8 @@ class World:
             return self.edit()
         if how == 17:
             return self.transact()
+        if how == 18:
+            return self.pass_by()
         return self.rebudget() if self.chance(2) else self.forget()
 
     def check(self) -> None:
