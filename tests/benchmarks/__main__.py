@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .asking import asking
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sections: list[Section] = []
     for name, benchmark in BENCHMARKS.items():
         if chosen in ("", name):
-            sections.append(benchmark(run))
+            sections.append(_section(name, benchmark, run))
             print(text(sections[-1]), flush=True)
     seconds = time.perf_counter() - start
     print(text(verdicts(sections)))
@@ -59,6 +59,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def _section(name: str, benchmark: Callable[[Run], Section], run: Run) -> Section:
+    try:
+        return benchmark(run)
+    except ImportError as error:
+        return Section(name, name.capitalize(), notes=[f"Not run: {error}."])
+
+
 def _write(page: Path, sections: list[Section], *, command: str, seconds: float) -> None:
     old = page.read_text(encoding="utf-8")
     before, begin, rest = old.partition(_BEGIN)
@@ -66,6 +73,8 @@ def _write(page: Path, sections: list[Section], *, command: str, seconds: float)
     if not (begin and end):
         raise SystemExit(f"{page}: nothing is marked by {_BEGIN} and {_END}")
     said = [f"Measured by `{command}` in {seconds:.0f} s on:", "", *[f"- {line}" for line in conditions()], ""]
+    missed = [f"- {target.claim}" for section in sections for target in section.targets if not target.is_met]
+    said += ["Missed in this run:" if missed else "Nothing was missed in this run.", "", *missed, ""]
     block = "\n".join([*said, *[markdown(section) for section in [verdicts(sections), *sections]]])
     page.write_text(f"{before}{_BEGIN}\n{block}{_END}{after}", encoding="utf-8")
 

@@ -63,9 +63,7 @@ def graph_speed(run: Run) -> Section:
     }
     _means(section, all_, [peer.name for peer in peers])
     if worst:
-        section.targets.append(
-            Target("update, per recomputed cell (2 µs where an empty call takes 0.03 µs)", 2 / 0.03, worst, "calls")
-        )
+        section.targets.append(Target("update: a recomputed cell, the slowest kind", 2 / 0.03, worst, "calls"))
         each = [f"{name.split(':')[0]} {us:.2f} µs" for name, us in section.figures.items() if "per cell" in name]
         section.notes.append(f"An empty method call took {empty * 1e9:.0f} ns; a recomputed cell: {'; '.join(each)}.")
     return section
@@ -138,10 +136,10 @@ def _means(section: Section, timings: dict[str, dict[str, Timing]], peers: list[
     section.rows.append(
         ("... of declared", "", "1×", *[ratio(means["declared"][p]) if p in means["declared"] else "–" for p in peers])
     )
-    for name, title in (("ours", "opaque rules"), ("declared", "declared inputs")):
+    for name, title in (("ours", "opaque"), ("declared", "declared")):
         for peer, limit, told in (
             ("effects", 6, "reaktiv with effects, where it ends"),
-            ("reaktiv, its faster form", 6, "reaktiv asked or with effects, whichever is faster"),
+            ("reaktiv, its faster form", 6, "reaktiv, its faster form"),
             ("observ", 2, "observ"),
         ):
             if peer in means[name]:

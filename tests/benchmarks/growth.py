@@ -39,7 +39,5 @@ def growth(run: Run) -> Section:
     section.notes.append("– : the number of paths doubles with every layer, and the peer goes along all of them.")
     for name in ("ours", "declared"):
         few, many = every[12][name].least / 12, every[24][name].least / 24
-        section.targets.append(
-            Target(f"ladder, {name}: a layer of 24 against one of 12 (least of the rounds)", 1.25, many / few, "times")
-        )
+        section.targets.append(Target(f"ladder, {name}: a layer of 24 against one of 12", 1.25, many / few, "times"))
     return section

@@ -100,7 +100,7 @@ def verdicts(sections: Iterable[Section]) -> Section:
             table.rows.append(
                 (
                     target.claim,
-                    f"{sign} {target.limit:g} {target.unit}".strip(),
+                    f"{sign} {target.limit:.4g} {target.unit}".strip(),
                     f"{_three(target.measured)} {target.unit}".strip(),
                     "met" if target.is_met else "NOT MET",
                 )

@@ -16,7 +16,7 @@ KEYS, TIMES = 10, 240
 
 def sampling(run: Run) -> Section:
     """Linear keys sampled at 240 times, curve by curve, as somebody does who exports a film."""
-    from reactive4d.signals import keys
+    from reactive4d import keys
 
     count = 100 if run.quick else 1_000
     draw = np.random.default_rng(1)
