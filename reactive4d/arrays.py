@@ -14,8 +14,8 @@ _EXACT = (int, str, bytes, bool, type(None))
 def same(a: Any, b: Any) -> bool:
     """Whether two values cannot be told apart: the same type, shape and bytes, where any NaN equals any NaN.
 
-    So 0.0 and -0.0 differ, and so do 1, 1.0 and True. Objects with an `__eq__` of their own are the same only if they
-    are identical: their `__eq__` is never called.
+    So 0.0 and -0.0 differ, and so do 1, 1.0 and True. Other objects are the same only if they are identical, and their
+    `__eq__` is never called, unless their class says `compares_exactly = True`: then it is taken at its word.
 
     >>> same(float("nan"), float("nan")), same(0.0, -0.0), same(1, True), same((1, 2.0), (1, 2.0))
     (True, False, False, True)
@@ -35,6 +35,8 @@ def same(a: Any, b: Any) -> bool:
         return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b, strict=True))
     if kind is complex:
         return same(a.real, b.real) and same(a.imag, b.imag)
+    if getattr(kind, "compares_exactly", False) is True:
+        return bool(a == b)
     if isinstance(a, np.generic):
         return a.dtype != object and _same_arrays(np.asarray(a), np.asarray(b))
     return False

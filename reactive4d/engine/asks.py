@@ -1,14 +1,17 @@
 """Bringing a cell up to date: look it up, check what it remembers, else run its rule, and remember the answer.
 
-    bring   the whole of it, with a stack of its own for cells that declare their inputs
-    peek    a clean answer, if there is one
-    gather  a formula's inputs at the point
-    recall  whether a remembered content still stands: its dependencies, in the order of reading, have their old stamps
-    run     the rule, without the lock
-    store   the answer into the table: clipped, cut off if equal, merged with its neighbour
+    bring    the whole of it, with a stack of its own: only opaque rules that read what was never asked for nest
+    peek     a clean answer, if there is one
+    formula  gather the inputs; if they are as they were the answer stands, else the function runs
+    task     an opaque rule: its remembered dependencies are checked in the order of reading, else it runs
+    store    the answer into the table: clipped, cut off if equal, merged with its neighbour
 
 The lock is held everywhere here but while rules run. What an edit on another thread does meanwhile is found out by the
 count of edits (`epoch`): whoever read something that was touched starts again.
+
+On the stack lie cells to bring up to date, all at the point of the present claim; tasks; and claims to go back to when
+what lies above them was read at another point. A cell bears the claim from when its inputs were first looked at, so
+whoever meets a cell with the present claim on it has come round a cycle.
 """
 
 from bisect import bisect_right
@@ -16,14 +19,17 @@ from math import nextafter
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.failures import Failure, failure, raised, same_failure
+from reactive4d.engine.evictions import CONTENT
+from reactive4d.engine.failures import Failure, failure, same_failure
 from reactive4d.engine.frames import (
     CHANGED,
+    CLAIM,
     DEPTH,
     LOCK,
-    NEVER,
-    WATCH,
+    TASK,
     Cancelled,
+    Claim,
+    Crowd,
     CycleFound,
     Hit,
     Me,
@@ -31,41 +37,44 @@ from reactive4d.engine.frames import (
     Task,
     here,
 )
+from reactive4d.engine.hits import watch
 from reactive4d.engine.links import link, unlink
-from reactive4d.engine.segments import EMPTY, Content, MappedReads, Segment, Table, content, covering, split
+from reactive4d.engine.segments import Content, MappedReads, Segment, Table, content, covering, split
 from reactive4d.engine.shelves import Shelves
 from reactive4d.engine.stamps import piece
-from reactive4d.errors import DepthError, EvaluationError, ParameterError, hint
+from reactive4d.errors import CycleError, DepthError, EvaluationError, ParameterError, hint
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Axis, Cell
     from reactive4d.engine.engines import Engine
     from reactive4d.engine.points import Point
 
-__all__ = ["ask", "bring", "peek", "read", "recheck"]
+__all__ = ["AXIS", "COMPUTED", "FORMULA", "SOURCE", "add_axes", "ask", "bring", "peek", "read", "recheck"]
 
 INF = float("inf")
 SOURCE, AXIS, FORMULA, COMPUTED = 0, 1, 2, 3
-AGAIN: Any = ()  # instead of a need: take the same task up again
 PATIENCE = 3  # restarts after which edits wait
 KEPT = 7  # older contents of a segment, so that with the present one there are as many as a source remembers
+
+acquire, release = LOCK.acquire, LOCK.release
 
 
 def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
     """Bring a cell up to date from outside of any evaluation; the hit may hold a `Failure`."""
     engine = cell.engine
-    me = here.me
     with LOCK:
-        WATCH[0] += 1
+        watch(1)
         try:
-            hit = bring(engine, cell, t, point, me)
+            hit = bring(engine, cell, t, point, here.me)
+            if hit[4] is None and engine.owner is None and type(hit[2]) is not Failure:
+                cell.hot = hit[:3]
         except CycleFound as found:
             raise cycle_error(found.path) from None
         except RecursionError:
-            raise _too_deep(cell) from None
+            error = DepthError(f"{cell.name}: the interpreter's stack is full")
+            raise hint(error, "ask from a shallower place; algebra and lift(f) need no stack, opaque rules do") from None
         finally:
-            WATCH[0] -= 1
-            if WATCH[0] == len(engine.logs) and (engine.bytes > engine.limit or engine.unpaid):
+            if watch(-1) == len(engine.logs) and (engine.bytes > engine.limit or engine.unpaid):
                 engine.trim()
     return hit
 
@@ -79,7 +88,7 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
     with LOCK:
         if engine.epoch != frame.epoch:
             recheck(engine, frame)
-        hit = None if engine.closed_to(me) else peek(engine, cell, t, point)
+        hit = None if engine.owner is not None and engine.owner is not me else peek(engine, cell, t, point)
         if hit is None:
             if me.depth >= DEPTH:
                 raise Suspended(cell, t, point)
@@ -98,15 +107,21 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
 
 def recheck(engine: "Engine", task: Task) -> None:
     """Start again if an edit has touched what this evaluation has read; otherwise go on, as of now."""
-    for entry, stamp in task.deps.items():
-        if type(entry) is tuple:
-            cell, t, point = engine.elsewhere(entry, task.t, task.point)
-            hit = peek(engine, cell, t, point)
-        else:
-            hit = peek(engine, entry, task.t, task.point)
-        if hit is None or hit[3] != stamp:
-            raise Cancelled
+    if not _unmoved(engine, task.t, task.point, tuple(task.deps), tuple(task.deps.values())):
+        raise Cancelled
     task.epoch = engine.epoch
+
+
+def _unmoved(
+    engine: "Engine", t: float, point: "Point | None", reads: tuple[Any, ...], stamps: tuple[int, ...]
+) -> bool:
+    """Whether everything that was read is still clean and as it was."""
+    for entry, stamp in zip(reads, stamps, strict=True):
+        cell, at, there = engine.elsewhere(entry, t, point) if type(entry) is tuple else (entry, t, point)
+        hit = peek(engine, cell, at, there)
+        if hit is None or hit[3] != stamp:
+            return False
+    return True
 
 
 def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit | None:
@@ -118,9 +133,13 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
         except Exception as error:  # noqa: BLE001  a source's own error is an answer as well
             # What it says elsewhere is not known.
             lo, hi, value = t, nextafter(t, INF), failure(error, cell.name, t)
-        a, b, stamp = piece(cell.stamps, t)
-        hit = (lo if lo > a else a, hi if hi < b else b, value, stamp, None, None)
-        if type(value) is not Failure and engine.owner is None:
+        stamps = cell.stamps
+        if type(stamps) is int:
+            hit = (lo, hi, value, stamps, None, None)
+        else:
+            a, b, stamp = piece(stamps, t)
+            hit = (lo if lo > a else a, hi if hi < b else b, value, stamp, None, None)
+        if engine.owner is None and type(value) is not Failure:
             cell.hit = hit
         return hit
     if kind == AXIS:
@@ -129,10 +148,10 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
         return -INF, INF, point.shown(cell), 0, point, (cell,)
     segments = cell.segments
     if segments:
-        i = bisect_right(cell.starts, t) - 1
+        i = bisect_right(cell.starts, t) - 1 if len(segments) > 1 else 0
         if i >= 0:
             segment = segments[i]
-            if segment.clean and t < segment.hi:
+            if segment.clean and segment.lo <= t < segment.hi:
                 return _publish(engine, cell, segment, None, None)
     if cell.shelves is not None:
         for shelf in cell.shelves.shelves:
@@ -148,105 +167,163 @@ def _publish(engine: "Engine", cell: "Cell", segment: Segment, point: "Point | N
     segment.touched = engine.clock
     hit = (segment.lo, segment.hi, segment.value, segment.stamp, point, axes)
     # While a transaction is open, what its owner sees is not to be seen by others.
-    if type(segment.value) is not Failure and engine.owner is None:
+    if engine.owner is None and type(segment.value) is not Failure:
         cell.hit = hit
     return hit
 
 
-def bring(engine: "Engine", cell: "Cell", t: float, point: "Point | None", me: Me) -> Hit:
+def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | None", me: Me) -> Hit:
     """Bring one cell up to date at one point, and with it whatever it needs."""
+    hit = peek(engine, root, root_t, root_point) if engine.owner is None or engine.owner is me else None
+    if hit is not None:
+        if engine.logs:
+            engine.emit("reused", root, hit[0], hit[1])
+        return hit
+    t, point = root_t, root_point
+    claim = Claim(t, point, me)
+    claims = [claim]
+    stack: list[Any] = [root]
+    fresh: Any = root  # what was looked up just now, in vain
     me.depth += 1
-    stack: list[Task] = []
-    want: Cell | None = cell
-    parent: Task | None = me.frame
+    me.stacks.append(stack)
     try:
         while True:
             if engine.owner is not None and engine.owner is not me:
+                # Nothing of what another thread's transaction has set so far is to be read.
                 wait_for_transaction(engine, me)
-            if want is not None:
-                hit = peek(engine, want, t, point)
-                if hit is not None:
-                    if engine.logs:
-                        engine.emit("reused", want, hit[0], hit[1])
-                    if not stack:
-                        return hit
-                else:
-                    busy = want.busy
-                    if busy is not None and _occupied(engine, busy, t, point, me, parent, want):
+                fresh = None
+            if not stack:
+                hit = root.hit
+                if not (hit[0] <= root_t < hit[1] and (hit[5] is None or hit[4] is root_point)):
+                    hit = peek(engine, root, root_t, root_point)
+                    if hit is None:
+                        stack.append(root)
+                        t, point, claim, fresh = root_t, root_point, claims[0], root
                         continue
-                    task = Task(want, t, point, me, parent)
-                    task.below = busy
-                    want.busy = task
-                    stack.append(task)
-                want = None
-            task = stack[-1]
-            kind = task.cell.kind
-            if kind == FORMULA:
-                need = _formula(engine, task)
-            elif kind < FORMULA:
-                need = None  # it was computed, and has been set to a constant meanwhile
+                return hit
+            entry = stack[-1]
+            kind = entry.kind
+            if kind == CLAIM:
+                claim = stack.pop()
+                t, point = claim.t, claim.point
+                continue
+            if kind == TASK:
+                cell = entry.cell
+                if cell.kind < FORMULA:  # it has been set to a constant meanwhile
+                    _leave(engine, cell, claim)
+                    stack.pop()
+                    continue
             else:
+                cell = entry
+                if kind < FORMULA:
+                    stack.pop()
+                    continue
+                busy = cell.busy
+                if busy is not claim and not (type(busy) is Crowd and claim in busy):
+                    if cell is not fresh and peek(engine, cell, t, point) is not None:
+                        stack.pop()
+                        continue
+                    fresh = None
+                    if busy is None:
+                        cell.busy = claim
+                    elif _occupied(engine, cell, claim):
+                        continue
+                if kind == COMPUTED:
+                    entry = stack[-1] = Task(cell, t, point, me)
+                    kind = TASK
+            if kind == TASK:
                 try:
-                    need = _computed(engine, task)
+                    need = _task(engine, entry, claim)
                 except Suspended as deep:
                     if me.depth > 1:
                         raise
-                    task.epoch = -1
-                    task.candidates = None
-                    need = (deep.cell, deep.t, deep.point)
-            if need is AGAIN:
-                if engine.owner is not None and engine.owner is not me:
-                    wait_for_transaction(engine, me)
-                continue
-            if need is not None:
-                want, t, point = need
-                parent = task
-                continue
-            stack.pop()
-            _release(engine, task)
-            if stack:
-                continue
-            t, point = task.t, task.point
-            hit = peek(engine, task.cell, t, point)
-            if hit is not None:
-                return hit
-            want, parent = task.cell, task.parent
+                    entry.candidates = None
+                    need = [(deep.cell, deep.t, deep.point)]
+            else:
+                need = _formula(engine, cell, t, point, claim)
+            if need is None:
+                if cell.busy is claim and not engine.waiting:
+                    cell.busy = None
+                else:
+                    _leave(engine, cell, claim)
+                stack.pop()
+            elif type(need) is list:
+                for wanted in reversed(need):
+                    if type(wanted) is tuple:
+                        source, at, there = wanted
+                        if at != t or there is not point:
+                            # At another point: that comes first, and alone.
+                            stack.append(claim)
+                            claim = Claim(at, there, me)
+                            claims.append(claim)
+                            t, point = at, there
+                            stack.append(source)
+                            fresh = None
+                            break
+                        wanted = source
+                    busy = wanted.busy
+                    if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
+                        raise CycleFound(_path(me, wanted, t))
+                    stack.append(wanted)
+                    fresh = wanted
+            else:
+                claim.restarts += 1
+                if claim.restarts > PATIENCE and not claim.patient:
+                    claim.patient = True
+                    engine.patience += 1
     except BaseException:
-        for task in reversed(stack):
-            _release(engine, task)
+        for entry in stack:
+            if entry.kind != CLAIM:
+                for other in claims:
+                    _leave(engine, entry.cell if entry.kind == TASK else entry, other)
         raise
     finally:
         me.depth -= 1
+        me.stacks.pop()
+        for other in claims:
+            if other.patient:
+                engine.patience -= 1
+                CHANGED.notify_all()
 
 
-def _occupied(
-    engine: "Engine", busy: Task | None, t: float, point: "Point | None", me: Me, parent: Task | None, cell: "Cell"
-) -> bool:
-    """Whether another thread is at the same cell and point and was waited for; a cycle if this thread itself is."""
-    while busy is not None:
-        if busy.t == t and (busy.point is point or (busy.point and point and busy.point.given == point.given)):
-            if busy.me is me:
-                raise CycleFound(_path(parent, busy))
-            if engine.owner is not me and not _closes_a_ring(busy, me):
-                _wait_for(engine, busy, me)
+def _occupied(engine: "Engine", cell: "Cell", claim: Claim) -> bool:
+    """Add a claim to others; or wait for another thread at the same point, then True; a cycle if it is this thread."""
+    busy = cell.busy
+    others = list(busy) if type(busy) is Crowd else [busy]
+    for other in others:
+        if other.t == claim.t and _same_point(other.point, claim.point):
+            if other.me is claim.me:
+                raise CycleFound(_path(claim.me, cell, claim.t))
+            if engine.owner is not claim.me and not _closes_a_ring(other, claim.me):
+                _wait_for(engine, cell, other, claim.me)
                 return True
-        busy = busy.below
+    cell.busy = Crowd([*others, claim])
     return False
 
 
-def _path(task: Task | None, head: Task) -> list[tuple[str, float]]:
-    path = [(head.cell.name, head.t)]
-    while task is not None and task is not head:
-        path.append((task.cell.name, task.t))
-        task = task.parent
-    path.append((head.cell.name, head.t))
-    path.reverse()
-    return path
+def _same_point(a: "Point | None", b: "Point | None") -> bool:
+    return a is b or (a is not None and b is not None and a.given == b.given)
+
+
+def _path(me: Me, head: "Cell", t: float) -> list[tuple[str, float]]:
+    """The cells under way on this thread, from `head` round to `head`."""
+    names: list[tuple[str, float]] = []
+    found = False
+    for stack in me.stacks:
+        for entry in stack:
+            if entry.kind == CLAIM:
+                continue
+            cell = entry.cell if entry.kind == TASK else entry
+            found = found or cell is head
+            if found and cell.busy is not None and (not names or names[-1][0] != cell.name):
+                names.append((cell.name, t))
+    if len(names) > 1 and names[-1][0] == head.name:
+        names.pop()  # it was about to be looked at once more
+    return [*(names or [(head.name, t)]), (head.name, t)]
 
 
 def cycle_error(path: list[tuple[str, float]]) -> Exception:
-    from reactive4d.errors import CycleError
-
+    """The error for a cell that reads itself, with the way round."""
     names = [name for name, _ in path]
     if len(names) > 14:
         names[7:-7] = ["…"]
@@ -254,13 +331,8 @@ def cycle_error(path: list[tuple[str, float]]) -> Exception:
     return hint(error, "let one of them read another time, as x.delay(0.1), or a constant, as attribute.source")
 
 
-def _too_deep(cell: "Cell") -> Exception:
-    error = DepthError(f"{cell.name}: the interpreter's stack is full")
-    return hint(error, "ask from a shallower place, or build the chain from algebra or lift(f), which need no stack")
-
-
-def _closes_a_ring(busy: Task, me: Me) -> bool:
-    other: Me | None = busy.me
+def _closes_a_ring(claim: Claim, me: Me) -> bool:
+    other: Me | None = claim.me
     seen: set[int] = set()
     while other is not None and id(other) not in seen:
         if other is me:
@@ -270,11 +342,13 @@ def _closes_a_ring(busy: Task, me: Me) -> bool:
     return False
 
 
-def _wait_for(engine: "Engine", busy: Task, me: Me) -> None:
-    me.waiting = busy
+def _wait_for(engine: "Engine", cell: "Cell", claim: Claim, me: Me) -> None:
+    me.waiting = claim
     engine.waiting += 1
     try:
-        while not busy.done and not engine.closed_to(me):
+        while cell.busy is claim or (type(cell.busy) is Crowd and claim in cell.busy):
+            if engine.owner is not None and engine.owner is not me:
+                break
             CHANGED.wait()
     finally:
         engine.waiting -= 1
@@ -282,133 +356,129 @@ def _wait_for(engine: "Engine", busy: Task, me: Me) -> None:
 
 
 def wait_for_transaction(engine: "Engine", me: Me) -> None:
+    """Wait until no other thread has a transaction open."""
     engine.waiting += 1
     try:
-        while engine.closed_to(me):
+        while engine.owner is not None and engine.owner is not me:
             CHANGED.wait()
     finally:
         engine.waiting -= 1
 
 
-def _release(engine: "Engine", task: Task) -> None:
-    """Give up the claim of a task on its cell and point."""
-    task.done = True
-    cell = task.cell
-    if cell.busy is task:
-        cell.busy = task.below
-    else:
-        other = cell.busy
-        while other is not None and other.below is not task:
-            other = other.below
-        if other is not None:
-            other.below = task.below
-    if task.patient:
-        engine.patience -= 1
+def _leave(engine: "Engine", cell: "Cell", claim: Claim) -> None:
+    """Take a claim off a cell."""
+    busy = cell.busy
+    if busy is claim:
+        cell.busy = None
+    elif type(busy) is Crowd and claim in busy:
+        busy.remove(claim)
+        if len(busy) == 1:
+            cell.busy = busy[0]
     if engine.waiting:
         CHANGED.notify_all()
 
 
-def _formula(engine: "Engine", task: Task) -> "tuple[Cell, float, Point | None] | None":
-    """Answer a cell that declares its inputs; returns the input that has to be brought up to date first, if any."""
-    cell = task.cell
+def _formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
+    """Answer a cell that declares its inputs: None when done, a list of what is missing, or True to try again."""
     inputs = cell.inputs
-    t, point = task.t, task.point
-    if task.epoch != engine.epoch:
-        task.begin(engine.epoch)
-    lo, hi = task.lo, task.hi
-    values, stamps = task.values, task.stamps
+    lo, hi = -INF, INF
+    values: list[Any] = []
+    stamps: list[int] = []
+    axes: dict[str, Axis] | None = None
+    missing: list[Any] | None = None
     mapped = type(inputs) is MappedReads
     logs = engine.logs
     bad: Failure | None = None
-    for i in range(task.index, len(inputs)):
-        source = inputs[i]
+    for source in inputs:
         if mapped and type(source) is tuple:
             entry = source
             source, at, there = engine.elsewhere(entry, t, point)
             hit = peek(engine, source, at, there)
             if hit is None:
-                task.index, task.lo, task.hi = i, lo, hi
-                return source, at, there
+                missing = [*(missing or ()), (source, at, there)]
+                continue
             hit = engine.brought_back(entry, hit, at, t)
         else:
             hit = source.hit
             if not (hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is point)):
                 hit = peek(engine, source, t, point)
                 if hit is None:
-                    task.index, task.lo, task.hi = i, lo, hi
-                    return source, t, point
-        if hit[0] > lo:
-            lo = hit[0]
-        if hit[1] < hi:
-            hi = hit[1]
-        values.append(hit[2])
-        stamps.append(hit[3])
+                    if missing is None:
+                        missing = [source]
+                    else:
+                        missing.append(source)
+                    continue
+        if missing is not None:
+            continue
+        a, b, value, stamp, _, its = hit
+        if a > lo:
+            lo = a
+        if b < hi:
+            hi = b
+        values.append(value)
+        stamps.append(stamp)
         if logs:
-            engine.emit("reused", source, hit[0], hit[1])
-        if hit[5] is not None:
-            problem = add_axes(task, hit[5])
+            engine.emit("reused", source, a, b)
+        if its is not None:
+            axes, problem = add_axes(cell, axes, its)
             if problem is not None:
                 bad = failure(problem, cell.name, t)
                 break
-        if type(hit[2]) is Failure:
-            bad = failure(hit[2].error, cell.name, t, hit[2])
+        if type(value) is Failure:
+            bad = failure(value.error, cell.name, t, value)
             break
-    task.lo, task.hi = lo, hi
-    reads = inputs if bad is None else _prefix(inputs, len(stamps))
+    if missing is not None:
+        return missing
+    reads = inputs if bad is None or len(stamps) == len(inputs) else type(inputs)(inputs[: len(stamps)])
     these = tuple(stamps)
-    table = cell if task.axes is None else _table(cell, task.axes, point)
+    table = cell if axes is None else _table(cell, axes, point)
     segment = covering(table, t)
     if segment is not None and not segment.clean:
         if segment.stamps == these and segment.reads == reads:
-            _stand(engine, cell, table, segment, task, None)
+            _stand(engine, cell, table, segment, lo, hi, point, None)
             return None
         if segment.older and engine.revivals > segment.retired:
             for old in segment.older:
                 if old[3] == these and old[2] == reads:
-                    _stand(engine, cell, table, segment, task, old)
+                    _stand(engine, cell, table, segment, lo, hi, point, old)
                     return None
     if bad is not None:
-        value: Any = bad
-    else:
-        runs = cell.runs
-        timed = not runs & 15
-        LOCK.release()
-        try:
-            started = perf_counter() if timed else 0.0
+        _store(engine, cell, table, t, lo, hi, point, bad, reads, these)
+        return None
+    runs = cell.runs
+    epoch = engine.epoch
+    release()
+    try:
+        if runs & 15:
             value = cell.function(*values)
-            if type(value) is not float:
-                value = engine.freeze(value)
-            if timed:
-                engine.timed(cell, perf_counter() - started)
-        except RecursionError as error:
-            value = failure(error, cell.name, t)
-        except Exception as error:  # noqa: BLE001  an exception is an answer
-            value = failure(error, cell.name, t)
-        finally:
-            LOCK.acquire()
-        cell.runs = runs + 1
-        if task.epoch != engine.epoch and not _unmoved(engine, task, reads, these):
-            _again(engine, task)
-            return AGAIN
-    _store(engine, cell, table, task, value, reads, these)
+        else:
+            started = perf_counter()
+            value = cell.function(*values)
+            engine.timed(cell, perf_counter() - started)
+        if type(value) is not float:
+            value = engine.freeze(value)
+    except Exception as error:  # noqa: BLE001  an exception is an answer
+        value = failure(error, cell.name, t)
+    finally:
+        acquire()
+    cell.runs = runs + 1
+    if epoch != engine.epoch and not _unmoved(engine, t, point, reads, these):
+        return True
+    _store(engine, cell, table, t, lo, hi, point, value, reads, these)
     return None
 
 
-def _prefix(inputs: tuple[Any, ...], n: int) -> tuple[Any, ...]:
-    return inputs if n == len(inputs) else type(inputs)(inputs[:n])
-
-
-def add_axes(task: Task, axes: "tuple[Axis, ...]") -> Exception | None:
-    """Note that the answer depends on these parameters; an error if two different ones have one name."""
-    known = task.axes
+def add_axes(
+    cell: "Cell", known: "dict[str, Axis] | None", axes: "tuple[Axis, ...]"
+) -> "tuple[dict[str, Axis], Exception | None]":
+    """Note that an answer depends on these parameters; an error if two different ones have one name."""
     if known is None:
-        known = task.axes = {}
+        known = {}
     for axis in axes:
-        other = known.setdefault(axis.name, axis)
-        if other is not axis:
-            error = ParameterError(f"{task.cell.name} reads two different parameters that are both called {axis.name!r}")
-            return hint(error, "make one Parameter and use it twice, or give them different names")
-    return None
+        if known.setdefault(axis.name, axis) is not axis:
+            error = ParameterError(f"{cell.name} reads two different parameters that are both called {axis.name!r}")
+            return known, hint(error, "make one Parameter and use it twice, or give them different names")
+    return known, None
 
 
 def _table(cell: "Cell", axes: "dict[str, Axis]", point: "Point | None") -> Table:
@@ -421,44 +491,23 @@ def _table(cell: "Cell", axes: "dict[str, Axis]", point: "Point | None") -> Tabl
     return table
 
 
-def _unmoved(engine: "Engine", task: Task, reads: tuple[Any, ...], stamps: tuple[int, ...]) -> bool:
-    """Whether everything that was read is still clean and as it was."""
-    for entry, stamp in zip(reads, stamps, strict=True):
-        if type(entry) is tuple:
-            cell, t, point = engine.elsewhere(entry, task.t, task.point)
-            hit = peek(engine, cell, t, point)
-        else:
-            hit = peek(engine, entry, task.t, task.point)
-        if hit is None or hit[3] != stamp:
-            return False
-    return True
-
-
-def _again(engine: "Engine", task: Task) -> None:
-    """Let a task start again; after a few times edits wait for it."""
-    task.epoch = -1
-    task.candidates = None
-    task.restarts += 1
-    if task.restarts > PATIENCE and not task.patient:
-        task.patient = True
-        engine.patience += 1
-
-
-def _computed(engine: "Engine", task: Task) -> "tuple[Cell, float, Point | None] | None":
-    """Answer a cell whose rule is opaque; returns the dependency that has to be brought up to date first, if any."""
+def _task(engine: "Engine", task: Task, claim: Claim) -> Any:
+    """Answer a cell whose rule is opaque: None when done, a list of what is missing, or True to try again."""
     cell, t, point = task.cell, task.t, task.point
     if task.candidates is None or task.epoch != engine.epoch:
         task.begin(engine.epoch)
         task.candidates = _candidates(engine, cell, t, point)
     while task.candidates:
         segment, old, table = task.candidates[-1]
-        outcome = _recall(engine, task, segment.reads if old is None else old[2], segment.stamps if old is None else old[3])
-        if type(outcome) is tuple:
+        reads, stamps = (segment.reads, segment.stamps) if old is None else (old[2], old[3])
+        outcome = _recall(engine, task, reads, stamps)
+        if type(outcome) is list:
             return outcome
         # Everything stands; but only where the table is filed under all the parameters that are read by now.
-        if outcome and _filed(cell, table, task.axes) and covering(table, t) is segment and not segment.clean:
-            _stand(engine, cell, table, segment, task, old)
-            return None
+        if outcome and (task.axes is None or _is_filed(cell, table, task.axes)):
+            if not segment.clean and covering(table, t) is segment:
+                _stand(engine, cell, table, segment, task.lo, task.hi, point, old)
+                return None
         task.candidates.pop()
         task.begin(engine.epoch)
     return _run(engine, task)
@@ -467,31 +516,37 @@ def _computed(engine: "Engine", task: Task) -> "tuple[Cell, float, Point | None]
 def _candidates(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> list[Any]:
     """The remembered contents that may still stand at a point: (segment, older content or None, table)."""
     found: list[Any] = []
-    tables: list[Table] = [cell]
     if cell.shelves is not None:
-        for shelf in cell.shelves.shelves:
+        for shelf in reversed(cell.shelves.shelves):
             table = cell.shelves.table(shelf, point)
             if table is not None:
-                tables.append(table)
-    for table in reversed(tables):
-        segment = covering(table, t)
-        if segment is None:
-            continue
-        if segment.older and engine.revivals > segment.retired:
-            found.extend((segment, old, table) for old in reversed(segment.older))
-        found.append((segment, None, table))
+                _add_candidates(engine, table, t, found)
+    if cell.segments:
+        _add_candidates(engine, cell, t, found)
     return found
 
 
-def _filed(cell: "Cell", table: Table, axes: "dict[str, Axis] | None") -> bool:
-    if axes is None:
-        return True
+def _add_candidates(engine: "Engine", table: Table, t: float, found: list[Any]) -> None:
+    segment = covering(table, t)
+    if segment is not None:
+        if segment.older and engine.revivals > segment.retired:
+            found.extend([(segment, old, table) for old in reversed(segment.older)])
+        found.append((segment, None, table))
+
+
+def _is_filed(cell: "Cell", table: Table, axes: "dict[str, Axis]") -> bool:
+    filed = _axes_of(cell, table)
+    return filed is not None and all(axis in filed for axis in axes.values())
+
+
+def _axes_of(cell: "Cell", table: Table) -> "tuple[Axis, ...] | None":
     if table is cell:
-        return False
+        return None
     for shelf in cell.shelves.shelves:
-        if any(other is table for other in shelf.tables.values()):
-            return all(axis in shelf.axes for axis in axes.values())
-    return False
+        for other in shelf.tables.values():
+            if other is table:
+                return shelf.axes
+    return None
 
 
 def _recall(engine: "Engine", task: Task, reads: tuple[Any, ...], stamps: tuple[int, ...]) -> Any:
@@ -500,7 +555,8 @@ def _recall(engine: "Engine", task: Task, reads: tuple[Any, ...], stamps: tuple[
     In order, and no further than the first change: a later dependency may exist only because of an earlier one's value.
     """
     t, point = task.t, task.point
-    for i in range(task.index, len(reads)):
+    i = task.index
+    for i in range(i, len(reads)):
         source = reads[i]
         if type(source) is tuple:
             entry = source
@@ -508,7 +564,7 @@ def _recall(engine: "Engine", task: Task, reads: tuple[Any, ...], stamps: tuple[
             hit = peek(engine, source, at, there)
             if hit is None:
                 task.index = i
-                return source, at, there
+                return [(source, at, there)]
             hit = engine.brought_back(entry, hit, at, t)
         else:
             hit = source.hit
@@ -516,35 +572,40 @@ def _recall(engine: "Engine", task: Task, reads: tuple[Any, ...], stamps: tuple[
                 hit = peek(engine, source, t, point)
                 if hit is None:
                     task.index = i
-                    return source, t, point
+                    return [source]
         if hit[3] != stamps[i]:
             return False
         if hit[0] > task.lo:
             task.lo = hit[0]
         if hit[1] < task.hi:
             task.hi = hit[1]
-        if hit[5] is not None and add_axes(task, hit[5]) is not None:
-            return False
+        if hit[5] is not None:
+            task.axes, problem = add_axes(task.cell, task.axes, hit[5])
+            if problem is not None:
+                return False
     return True
 
 
-def _run(engine: "Engine", task: Task) -> "tuple[Cell, float, Point | None] | None":
-    """Run an opaque rule, without the lock, and store its answer."""
+def _run(engine: "Engine", task: Task) -> Any:
+    """Run an opaque rule, without the lock, and store its answer: None when done, or True to try again."""
     cell, me = task.cell, task.me
+    task.run(engine.epoch)
     outer = me.frame
     me.frame = task
     runs = cell.runs
-    timed = not runs & 15
-    task.nested = 0.0 if timed else -1.0
     value: Any = None
-    LOCK.release()
+    release()
     try:
-        started = perf_counter() if timed else 0.0
-        value = cell.rule()
+        if runs & 15:
+            task.nested = -1.0
+            value = cell.rule()
+        else:
+            task.nested = 0.0
+            started = perf_counter()
+            value = cell.rule()
+            engine.timed(cell, perf_counter() - started - task.nested)
         if type(value) is not float:
             value = engine.freeze(value)
-        if timed:
-            engine.timed(cell, perf_counter() - started - task.nested)
     except Cancelled:
         value = Cancelled
     except RecursionError as error:
@@ -554,32 +615,38 @@ def _run(engine: "Engine", task: Task) -> "tuple[Cell, float, Point | None] | No
         value = failure(error, cell.name, task.t)
     except Exception as error:  # noqa: BLE001  an exception is an answer
         passed = task.raised
-        source = passed[1] if passed is not None and passed[0] is error else None
-        value = failure(error, cell.name, task.t, source)
+        value = failure(error, cell.name, task.t, passed[1] if passed is not None and passed[0] is error else None)
     finally:
         me.frame = outer
-        LOCK.acquire()
+        acquire()
     cell.runs = runs + 1
-    if value is not Cancelled and task.epoch != engine.epoch:
+    deps = task.deps
+    if task.epoch != engine.epoch and value is not Cancelled:
         try:
             recheck(engine, task)
         except Cancelled:
             value = Cancelled
     if value is Cancelled:
-        _again(engine, task)
-        return AGAIN
-    deps = task.deps
+        task.candidates = None
+        return True
     reads = MappedReads(deps) if task.mapped else tuple(deps)
     table = cell if task.axes is None else _table(cell, task.axes, task.point)
-    _store(engine, cell, table, task, value, reads, tuple(deps.values()))
+    _store(engine, cell, table, task.t, task.lo, task.hi, task.point, value, reads, tuple(deps.values()))
     return None
 
 
 def _stand(
-    engine: "Engine", cell: "Cell", table: Table, segment: Segment, task: Task, old: Content | None
+    engine: "Engine",
+    cell: "Cell",
+    table: Table,
+    segment: Segment,
+    lo: float,
+    hi: float,
+    point: "Point | None",
+    old: Content | None,
 ) -> None:
     """Find a segment in check as it was (or as an older content says) over the interval that its dependencies allow."""
-    lo, hi = max(task.lo, segment.lo), min(task.hi, segment.hi)
+    lo, hi = max(lo, segment.lo), min(hi, segment.hi)
     if lo > segment.lo or hi < segment.hi:
         split(table, segment, lo, hi)
     if old is not None:
@@ -587,41 +654,18 @@ def _stand(
         segment.older = (content(segment), *rest)
         segment.retired = engine.revivals - 1
         segment.value, segment.stamp, segment.reads, segment.stamps = old
-        link(cell, segment.reads)
-        cell.linked = segment.reads
-    elif segment.reads is not cell.linked:
+    if segment.reads is not cell.linked:
         link(cell, segment.reads)
         cell.linked = segment.reads
     segment.clean = True
-    segment.touched = engine.clock
-    if table is not cell:
-        cell.shelves.cover = None
     if engine.logs:
         engine.emit("validated" if old is None else "restored", cell, lo, hi)
     _merge(table, segment)
-    _publish(
-        engine,
-        cell,
-        segment,
-        None if table is cell else task.point,
-        None if table is cell or task.axes is None else _axes_of(cell, table),
-    )
-
-
-def _axes_of(cell: "Cell", table: Table) -> "tuple[Axis, ...] | None":
     if table is cell:
-        return None
-    for shelf in cell.shelves.shelves:
-        if any(other is table for other in shelf.tables.values()):
-            return shelf.axes
-    return None
-
-
-def _alike(these: tuple[Content, ...], those: tuple[Content, ...]) -> bool:
-    """Whether two segments said the same before: an older content holds only where it was found."""
-    return len(these) == len(those) and all(
-        a[1] == b[1] and a[3] == b[3] and a[2] == b[2] for a, b in zip(these, those, strict=True)
-    )
+        _publish(engine, cell, segment, None, None)
+    else:
+        cell.shelves.cover = None
+        _publish(engine, cell, segment, point, _axes_of(cell, table))
 
 
 def _merge(table: Table, segment: Segment) -> None:
@@ -652,111 +696,125 @@ def _merge(table: Table, segment: Segment) -> None:
                 del table.starts[j]
 
 
+def _alike(these: tuple[Content, ...], those: tuple[Content, ...]) -> bool:
+    """Whether two segments said the same before: an older content holds only where it was found."""
+    return len(these) == len(those) and all(
+        a[1] == b[1] and a[3] == b[3] and a[2] == b[2] for a, b in zip(these, those, strict=True)
+    )
+
+
 def _store(
     engine: "Engine",
     cell: "Cell",
     table: Table,
-    task: Task,
+    t: float,
+    lo: float,
+    hi: float,
+    point: "Point | None",
     value: Any,
     reads: tuple[Any, ...],
     stamps: tuple[int, ...],
 ) -> None:
     """Remember an answer: clip it to the gap, or to the segment in check that it replaces; cut off if it is the same."""
-    t, lo, hi = task.t, task.lo, task.hi
-    old_reads: tuple[Any, ...] | None = None
-    if reads != cell.linked:
-        old_reads = cell.linked
-        link(cell, reads)
-        cell.linked = reads
-    else:
-        reads = cell.linked
+    linked = cell.linked
+    if reads is not linked:
+        if reads == linked:
+            reads = linked
+        else:
+            link(cell, reads)
+            cell.linked = reads
     engine.clock += 1
     segments = table.segments
+    logs = engine.logs
     if len(segments) == 1 and segments[0].lo <= t < segments[0].hi:
-        i, segment = 0, segments[0]
-    elif segments:
-        i = bisect_right(table.starts, t) - 1
+        segment = segments[0]
+    else:
+        i = bisect_right(table.starts, t) - 1 if segments else -1
         segment = segments[i] if i >= 0 and t < segments[i].hi else None
-    else:
-        table.starts, table.segments = [], []
-        segments, i, segment = table.segments, -1, None
-    if segment is None:
-        if i >= 0 and segments[i].hi > lo:
-            lo = segments[i].hi
-        if i + 1 < len(segments) and segments[i + 1].lo < hi:
-            hi = segments[i + 1].lo
-        stamp = engine.stamp()
-        segment = Segment(lo, hi, value, stamp, reads, stamps, engine.clock)
-        if i >= 0 and segments[i].hi == lo and segments[i].clean and segments[i].stamps == stamps:
-            _adopt(engine, segment, segments[i])
-        elif i + 1 < len(segments) and segments[i + 1].lo == hi and segments[i + 1].clean:
-            _adopt(engine, segment, segments[i + 1])
-        table.starts.insert(i + 1, lo)
-        segments.insert(i + 1, segment)
-        engine.remembered(cell, segment)
-        _merge(table, segment)
-        if engine.logs:
-            engine.emit("evaluated", cell, lo, hi)
-    elif segment.clean:
-        # Another thread was quicker, or this one came by here on another way.
-        if engine.logs:
+        if segment is None:
+            segment = _insert(engine, cell, table, i + 1, lo, hi, value, reads, stamps)
+            lo, hi = segment.lo, segment.hi
+    if segment.clean:
+        # It is new; or another thread was quicker, or this one came by here on another way.
+        if logs:
             engine.emit("evaluated", cell, lo, hi)
     else:
-        if lo < segment.lo:
-            lo = segment.lo
-        if hi > segment.hi:
-            hi = segment.hi
-        if lo > segment.lo or hi < segment.hi:
+        if lo <= segment.lo and segment.hi <= hi:
+            lo, hi = segment.lo, segment.hi
+            if linked is not cell.linked and linked and len(segments) == 1 and cell.shelves is None:
+                unlink(cell, linked, reads)
+        else:
+            lo, hi = max(lo, segment.lo), min(hi, segment.hi)
             split(table, segment, lo, hi)
         before = segment.value
-        if (
-            before is value
-            or (type(value) is float and type(before) is float and value == before and value != 0.0)
-            or _equal(engine, before, value)
-        ):
-            equal = True
-        else:
-            equal = False
-        older = segment.older
-        segment.older = ((before, segment.stamp, segment.reads, segment.stamps), *older[: KEPT - 1])
+        segment.older = ((before, segment.stamp, segment.reads, segment.stamps), *segment.older[: KEPT - 1])
         segment.retired = engine.revivals
-        if not equal:
+        cut_off = before is value or _equal(engine, before, value)
+        if not cut_off:
             segment.value = value
             segment.stamp = engine.stamp()
-            engine.grown(cell, value)
+            engine.bytes += CONTENT + (24 if type(value) is float else engine.measure(value))
         segment.reads = reads
         segment.stamps = stamps
         segment.clean = True
-        segment.touched = engine.clock
-        if engine.logs:
+        if logs:
             engine.emit("evaluated", cell, lo, hi)
-            if equal:
+            if cut_off:
                 engine.emit("cut off", cell, lo, hi)
         if len(segments) > 1:
             _merge(table, segment)
-    if old_reads and cell.shelves is None and len(cell.segments) == 1:
-        # No other segment is left which could still list what this one no longer reads.
-        unlink(cell, old_reads, segment.reads)
     if table is cell:
         _publish(engine, cell, segment, None, None)
     else:
         cell.shelves.cover = None
-        _publish(engine, cell, segment, task.point, _axes_of(cell, table))
+        _publish(engine, cell, segment, point, _axes_of(cell, table))
 
 
-def _adopt(engine: "Engine", segment: Segment, neighbour: Segment) -> None:
-    """Give a new segment its neighbour's stamp where it says the same for the same reasons."""
-    if (
-        neighbour.stamps == segment.stamps
-        and neighbour.reads == segment.reads
-        and _equal(engine, neighbour.value, segment.value)
-    ):
-        segment.value, segment.stamp, segment.stamps = neighbour.value, neighbour.stamp, neighbour.stamps
+def _insert(
+    engine: "Engine",
+    cell: "Cell",
+    table: Table,
+    i: int,
+    lo: float,
+    hi: float,
+    value: Any,
+    reads: tuple[Any, ...],
+    stamps: tuple[int, ...],
+) -> Segment:
+    """A new segment in the gap before the i-th, as part of its neighbour where that says the same."""
+    segments = table.segments
+    if not segments:
+        segment = Segment(lo, hi, value, engine.stamp(), reads, stamps, engine.clock)
+        table.starts, table.segments = [lo], [segment]
+        engine.remembered(cell, segment)
+        return segment
+    if i > 0 and segments[i - 1].hi > lo:
+        lo = segments[i - 1].hi
+    if i < len(segments) and segments[i].lo < hi:
+        hi = segments[i].lo
+    segment = Segment(lo, hi, value, 0, reads, stamps, engine.clock)
+    for neighbour in segments[max(i - 1, 0) : i + 1]:
+        if (
+            neighbour.clean
+            and (neighbour.hi == lo or neighbour.lo == hi)
+            and neighbour.stamps == stamps
+            and neighbour.reads == reads
+            and _equal(engine, neighbour.value, value)
+        ):
+            segment.value, segment.stamp, segment.stamps = neighbour.value, neighbour.stamp, neighbour.stamps
+            break
+    if not segment.stamp:
+        segment.stamp = engine.stamp()
+    table.starts.insert(i, lo)
+    segments.insert(i, segment)
+    engine.remembered(cell, segment)
+    _merge(table, segment)
+    return segment
 
 
 def _equal(engine: "Engine", a: Any, b: Any) -> bool:
+    if type(a) is float and type(b) is float and a != b:
+        return a != a and b != b
     if type(a) is Failure or type(b) is Failure:
         return type(a) is type(b) and same_failure(a, b, same=engine.same)
-    return a is b or engine.same(a, b)
-
-
+    return engine.same(a, b)

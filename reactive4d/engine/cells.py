@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import asks, edits, naive
 from reactive4d.engine.failures import Failure, raised
-from reactive4d.engine.frames import NEVER, WATCH, Cancelled, Hit, Task, here
+from reactive4d.engine.frames import NEVER, Cancelled, Claim, Crowd, Hit, Task, here
+from reactive4d.engine.hits import COLD, Hits
 from reactive4d.engine.maps import Fixed, TimeMap
-from reactive4d.engine.segments import MappedReads, Table
+from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.stamps import Stamps, piece
 from reactive4d.errors import EvaluationError, ParameterError, TimeError, hint
 from reactive4d.intervals import Interval
@@ -30,7 +31,7 @@ __all__ = ["Axis", "Cell", "Computed", "Formula", "Source", "moment", "narrow", 
 INF = math.inf
 
 
-class Cell(Table):
+class Cell(Hits):
     """A value that depends on where one asks, and is computed when, and only when, somebody asks."""
 
     __slots__ = ("__weakref__", "busy", "cost", "engine", "enlisted", "hit", "hits", "linked", "name", "readers", "ref", "runs", "shelves")
@@ -48,10 +49,11 @@ class Cell(Table):
         self.engine = engine
         self.name = name if name is not None else type(self).__name__.lower()
         self.hit: Hit = NEVER
+        self.hot = COLD
         self.readers: Any = None
         self.ref: Any = None
         self.linked: tuple[Any, ...] | None = None
-        self.busy: Task | None = None
+        self.busy: Claim | Crowd | None = None
         self.shelves: Shelves | None = None
         self.enlisted = False
         self.hits = 0
@@ -71,29 +73,6 @@ class Cell(Table):
         raise NotImplementedError
 
     stamps: Stamps = 0
-
-    def at(self, t: float, /, **parameters: Any) -> Any:
-        """The answer at one instant; of a signal also the answers at an array of times.
-
-        Args:
-            t: seconds; not NaN. Infinite times are legal. For a signal also (N,) times.
-            **parameters: a reader's values. Those not named are the asker's inside of an evaluation, else the defaults.
-
-        Returns:
-            The answer; for (N,) times an array of (N, …), frozen, evaluated together wherever possible, or a tuple of N
-            where the answers are no numbers.
-
-        Raises:
-            TimeError: `t` is NaN or no number.
-            UnknownNameError: there is no parameter of this name.
-            ParameterError: a value that its parameter does not take.
-            CycleError: the cell reads itself at this very point.
-            Exception: whatever the rule raised, with the path to it as notes.
-        """
-        hit = self.hit
-        if type(t) is float and hit[0] <= t < hit[1] and not parameters and hit[4] is None and not WATCH[0]:
-            return hit[2]
-        return self._asked(t, parameters)
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         frame = here.me.frame
@@ -140,26 +119,26 @@ class Cell(Table):
         if frame is None:
             error = EvaluationError(f"{self.name}.now() outside of an evaluation")
             raise hint(error, f"ask for an instant: {self.name}.at(t)")
-        t = frame.t
-        hit = self.hit
-        if not (hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is frame.point)) or frame.naive is not None:
+        t = frame.clock
+        lo, hi, value, stamp, point, axes = self.hit
+        if not (lo <= t < hi and (axes is None or point is frame.point)):
             if frame.naive is not None:
-                return naive.read(self, frame, t, frame.point)
-            hit = asks.read(self, frame, t, frame.point)
-        if hit[0] > frame.lo:
-            frame.lo = hit[0]
-        if hit[1] < frame.hi:
-            frame.hi = hit[1]
-        if frame.deps.setdefault(self, hit[3]) != hit[3]:
+                return naive.read(self, frame, frame.t, frame.point)
+            lo, hi, value, stamp, point, axes = asks.read(self, frame, t, frame.point)
+        if lo > frame.lo:
+            frame.lo = lo
+        if hi < frame.hi:
+            frame.hi = hi
+        if frame.deps.setdefault(self, stamp) != stamp:
             raise Cancelled
-        if hit[5] is not None:
-            self._note_axes(frame, hit[5])
-        if type(hit[2]) is Failure:
-            self._raise(frame, hit[2])
-        return hit[2]
+        if axes is not None:
+            self._note_axes(frame, axes)
+        if type(value) is Failure:
+            self._raise(frame, value)
+        return value
 
     def _note_axes(self, frame: Task, axes: Any) -> None:
-        problem = asks.add_axes(frame, axes)
+        frame.axes, problem = asks.add_axes(frame.cell, frame.axes, axes)
         if problem is not None:
             raise problem
 
@@ -350,8 +329,8 @@ class Computed(Cell):
 
 def sealed(function: Callable[..., Any], name: str) -> Callable[..., Any]:
     """A function of values that may read nothing: what it reads could not be known to whoever asks for the answer."""
-    guard = Task(Cell(name=name), math.nan, None, here.me, None)
-    guard.begin(0)
+    guard = Task(Cell(name=name), math.nan, None, here.me)
+    guard.run(0)
     guard.naive = naive.SEALED
 
     def call(*values: Any) -> Any:

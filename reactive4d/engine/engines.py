@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from reactive4d.engine import checks, edits, evictions, explanations, graphs, naive
 from reactive4d.engine.events import Event
 from reactive4d.engine.failures import Failure, raised
-from reactive4d.engine.frames import CHANGED, LOCK, WATCH, CycleFound, Hit, Me, here
+from reactive4d.engine.frames import CHANGED, LOCK, CycleFound, Hit, Me, here
+from reactive4d.engine.hits import watch
 from reactive4d.engine.points import Point
 from reactive4d.engine.segments import Segment
 from reactive4d.errors import ParameterError, TimeError, unknown
@@ -181,7 +182,8 @@ class Engine:
     def naive(self, cell: "Cell", t: float, /, **parameters: Any) -> Any:
         """The answer as an evaluator gives it that remembers nothing: for tests, and for doubts."""
         point = self.point(parameters) if parameters else None
-        WATCH[0] += 1
+        with LOCK:
+            watch(1)
         try:
             value = naive.evaluate(cell, min(float(t), LATEST) + 0.0, point)
         except CycleFound as found:
@@ -189,7 +191,8 @@ class Engine:
 
             raise cycle_error(found.path) from None
         finally:
-            WATCH[0] -= 1
+            with LOCK:
+                watch(-1)
         if type(value) is Failure:
             raise raised(value)
         return value
@@ -214,10 +217,6 @@ class Engine:
         value = segment.value
         self.bytes += evictions.SEGMENT + (24 if type(value) is float else self.measure(value))
         evictions.keep(self, cell, segment)
-
-    def grown(self, cell: "Cell", value: Any) -> None:
-        """Count the bytes of an answer that replaced another, which is kept for undoing."""
-        self.bytes += evictions.CONTENT + (24 if type(value) is float else self.measure(value))
 
     def trim(self) -> None:
         """Forget what pays least, until the budget is kept; the lock is held, and nothing is being evaluated."""
@@ -244,14 +243,14 @@ class Engine:
         events: list[Event] = []
         with LOCK:
             self.logs.append(events)
-            WATCH[0] += 1
+            watch(1)
         try:
             yield events
         finally:
             with LOCK:
                 # By identity: two logs may hold equal events.
                 self.logs = [log for log in self.logs if log is not events]
-                WATCH[0] -= 1
+                watch(-1)
 
     def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:
         """What was computed and what reused to answer at a point, and why, as an indented text."""

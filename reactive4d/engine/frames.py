@@ -1,9 +1,9 @@
 """Who is asking: the evaluation that a thread is in, where it waits, and the ways in which an evaluation is unwound.
 
-A `Task` is one cell being brought up to date at one point. While its rule runs it is the thread's `frame`: every read
-adds what was read to `deps` and narrows the interval over which the answer will hold. `Me` is a thread; the thread
-local `here` finds it. `WATCH[0]` counts the evaluations under way and the open logs of the process: where it is zero,
-a remembered answer may be handed out without asking who asks.
+A `Claim` says which thread is bringing cells up to date, and at which point: while it stands on a cell, other threads
+wait for the answer instead of computing it too. A `Task` is an opaque rule being checked or run: while it runs it is the
+thread's `frame`, every read adds what was read to `deps` and narrows the interval over which the answer will hold. `Me`
+is a thread; the thread local `here` finds it.
 """
 
 import threading
@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
     from reactive4d.engine.points import Point
-    from reactive4d.engine.segments import Segment
+    from reactive4d.engine.segments import Segment, Table
 
-__all__ = ["LOCK", "NEVER", "WATCH", "Cancelled", "CycleFound", "Hit", "Me", "Suspended", "Task", "here"]
+__all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "TASK", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me"]
+__all__ += ["Suspended", "Task", "here"]
 
 INF = float("inf")
+TASK, CLAIM = 4, 5
 
 # (lo, hi, value, stamp, point, axes): where an answer holds, the answer, its stamp, the point that it was asked at (None
 # where the default point will do) and the parameters that it read (None where it read none).
@@ -28,7 +30,6 @@ NEVER: Hit = (INF, -INF, None, 0, None, None)
 # One lock guards the bookkeeping of all engines; rules run without it.
 LOCK = threading.Lock()
 CHANGED = threading.Condition(LOCK)
-WATCH = [0]
 
 # How many opaque rules may run inside of one another before the evaluation is unwound and begun again from below:
 # each takes five interpreter frames, of which a thousand is the usual limit.
@@ -56,14 +57,15 @@ class CycleFound(BaseException):
 
 
 class Me:
-    """A thread: the task whose rule it runs, how deep it is, and the task of another thread that it waits for."""
+    """A thread: the task whose rule it runs, how deep it is, what it has under way, and whom it waits for."""
 
-    __slots__ = ("depth", "frame", "waiting")
+    __slots__ = ("depth", "frame", "stacks", "waiting")
 
     def __init__(self) -> None:
         self.frame: Task | None = None
         self.depth = 0
-        self.waiting: Task | None = None
+        self.stacks: list[list[Any]] = []
+        self.waiting: Claim | None = None
 
 
 class _Here(threading.local):
@@ -74,60 +76,76 @@ class _Here(threading.local):
 here = _Here()
 
 
+class Claim:
+    """One thread bringing cells up to date at one point."""
+
+    __slots__ = ("me", "patient", "point", "restarts", "t")
+
+    kind = CLAIM
+
+    def __init__(self, t: float, point: "Point | None", me: Me) -> None:
+        self.t = t
+        self.point = point
+        self.me = me
+        self.restarts = 0
+        self.patient = False  # whether edits wait for it
+
+
+class Crowd(list[Claim]):
+    """Several claims on one cell: by several threads, or at several points."""
+
+    __slots__ = ()
+
+
 class Task:
-    """One cell being brought up to date at one point, by one thread."""
+    """An opaque rule at one point: first what it remembers is checked, then, if need be, it is run."""
 
     __slots__ = (
         "axes",  # {name: Axis} that were read so far, or None
-        "below",  # the next task on the same cell, at another point or by another thread
-        "candidates",  # remembered contents that may still stand, the likeliest last
+        "candidates",  # remembered contents that may still stand, the likeliest last; None: not looked for yet
         "cell",
+        "claim",
+        "clock",  # the time for which remembered answers may be read: nan where none may
         "deps",  # {cell or (cell, map, overrides): stamp} in the order of reading
-        "done",
         "epoch",  # the engine's count of edits when reading began
         "handed",  # the very `t` object that a rule with an argument was given
         "hi",
-        "index",  # how far the inputs, or the dependencies of a candidate, have been walked
+        "index",  # how far the dependencies of a candidate have been walked
         "lo",
         "mapped",  # whether some dependency was read elsewhere in time
         "me",
         "naive",  # set in the frames of the naive evaluator, and where no read is allowed
-        "nested",  # seconds spent in evaluations inside of this one
-        "parent",  # the task that wants this one
-        "patient",  # whether edits wait for this task
+        "nested",  # seconds spent in evaluations inside of this one; negative: not measured
+        "parent",  # in the naive evaluator, the task that wants this one
         "point",
         "raised",  # (the exception that was raised at a read, the failure that it stands for)
-        "restarts",
-        "stamps",
         "t",
-        "values",
     )
 
-    def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me, parent: "Task | None") -> None:
+    kind = TASK
+
+    candidates: "list[tuple[Segment, Any, Table]] | None"
+
+    def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me) -> None:
         self.cell = cell
-        self.t = t
+        self.t = self.clock = t
         self.point = point
         self.me = me
-        self.parent = parent
-        self.below: Task | None = None
-        self.done = False
-        self.patient = False
-        self.restarts = 0
+        self.candidates = None
         self.naive: Any = None
-        self.candidates: list[tuple[Segment | None, tuple[Any, ...]]] | None = None
-        self.epoch = -1
-        self.nested = 0.0
 
     def begin(self, epoch: int) -> None:
         """Forget what was read so far: reading begins, in a state of the model that `epoch` names."""
         self.epoch = epoch
         self.lo = -INF
         self.hi = INF
-        self.deps: dict[Any, int] = {}
         self.axes: dict[str, Any] | None = None
+        self.index = 0
+
+    def run(self, epoch: int) -> None:
+        """Begin, with nothing read yet."""
+        self.begin(epoch)
+        self.deps: dict[Any, int] = {}
         self.mapped = False
         self.raised: tuple[BaseException, Any] | None = None
         self.handed: Any = None
-        self.index = 0
-        self.values: list[Any] = []
-        self.stamps: list[int] = []

@@ -7,6 +7,7 @@ next to nothing. It has a stack of its own: no depth of links is too deep.
 from typing import TYPE_CHECKING
 
 from reactive4d.engine.frames import NEVER
+from reactive4d.engine.hits import COLD
 from reactive4d.engine.links import Readers, preimages, readers_of
 from reactive4d.engine.segments import flip
 
@@ -25,6 +26,9 @@ def mark(engine: "Engine", cell: "Cell", lo: float, hi: float) -> tuple[float, f
     hit = cell.hit
     if hit[0] < hi and lo < hit[1]:
         cell.hit = NEVER
+    hot = cell.hot
+    if hot[0] < hi and lo < hot[1]:
+        cell.hot = COLD
     changed = flip(cell, lo, hi)
     if cell.shelves is not None and cell.shelves.mark(lo, hi):
         changed = (lo, hi)

@@ -3,6 +3,7 @@
 The engine's tests compare every answer with this one, bit for bit.
 """
 
+from math import nan
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.failures import Failure, failure, raised
@@ -40,8 +41,10 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
             raise CycleFound(path[::-1])
         other = other.parent
     me = here.me
-    task = Task(cell, t, point, me, parent)
-    task.begin(0)
+    task = Task(cell, t, point, me)
+    task.run(0)
+    task.parent = parent
+    task.clock = nan
     task.naive = _Reads()
     outer = me.frame
     try:

@@ -54,6 +54,8 @@ class Rotation:
     array([0., 1., 0.])
     """
 
+    compares_exactly = True  # by bytes
+
     __slots__ = ("_wxyz",)
     __array_ufunc__ = None  # arrays do not take a rotation apart: `array * rotation` is an error of type
     _wxyz: _Quaternion

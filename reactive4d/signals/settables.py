@@ -3,6 +3,7 @@
 from typing import Any, TypeVar
 
 from reactive4d.engine import Engine, Source, asks
+from reactive4d.engine.frames import NEVER
 from reactive4d.signals.signal import Signal
 
 __all__ = ["Contents", "Settable"]
@@ -53,7 +54,7 @@ class Settable(Signal[T], Source):
             own = self.own = Contents(None, name=f"{self.name}.source", engine=self.engine)
         own.content = self.content
         own.stamps = self.stamps
-        own.hit = asks.NEVER
+        own.hit = NEVER
         return own
 
     def _be_formula(self, *inputs: Any) -> None:
