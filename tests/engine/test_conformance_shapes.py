@@ -13,8 +13,10 @@ Build = Callable[[Case, Cell], Cell]
 
 
 def chain(case: Case, s: Cell) -> Cell:
-    """
-    S -> a -> b -> c
+    r"""
+    A chain.
+
+        s --> a --> b --> c
     """
     a = case.formula("a", lambda x: x + 1.0, s)
     b = case.formula("b", lambda x: x * 2.0, a)
@@ -22,12 +24,14 @@ def chain(case: Case, s: Cell) -> Cell:
 
 
 def diamond(case: Case, s: Cell) -> Cell:
-    """
-     S
-    / \\
-    a   b
-    \\ /
-     c
+    r"""
+    A diamond.
+
+          s
+         / \
+        a   b
+         \ /
+          c
     """
     a = case.formula("a", lambda x: x + 1.0, s)
     b = case.formula("b", lambda x: x * 3.0, s)
@@ -35,12 +39,14 @@ def diamond(case: Case, s: Cell) -> Cell:
 
 
 def opaque_diamond(case: Case, s: Cell) -> Cell:
-    """
-     S
-    / \\
-    a   b      all of them opaque
-    \\ /
-     c
+    r"""
+    A diamond of opaque rules.
+
+          s
+         / \
+        a   b
+         \ /
+          c
     """
     a = case.rule("a", lambda: s.now() + 1.0)
     b = case.rule("b", lambda: s.now() * 3.0)
@@ -48,14 +54,16 @@ def opaque_diamond(case: Case, s: Cell) -> Cell:
 
 
 def jagged_diamond(case: Case, s: Cell) -> Cell:
-    """
-      S
-     / \\
-    a   b
-    |   |
-    c   |
-     \\ /
-      d
+    r"""
+    A diamond with one arm longer than the other.
+
+          s
+         / \
+        a   b
+        |   |
+        c   |
+         \ /
+          d
     """
     a = case.formula("a", lambda x: x + 1.0, s)
     b = case.formula("b", lambda x: x * 3.0, s)
@@ -64,24 +72,28 @@ def jagged_diamond(case: Case, s: Cell) -> Cell:
 
 
 def tail(case: Case, s: Cell) -> Cell:
-    """
-     S
-    / \\
-    a   b
-    \\ /
-     c
-     |
-     d
+    r"""
+    A diamond with a tail.
+
+          s
+         / \
+        a   b
+         \ /
+          c
+          |
+          d
     """
     c = diamond(case, s)
     return case.rule("d", lambda: -c.now())
 
 
 def skip(case: Case, s: Cell) -> Cell:
-    """
-    S -> a -> b -> c
-     \\________/  /       every cell also reads what lies two before it
-         \\_____/
+    r"""
+    Connections that skip a layer.
+
+        s --> a --> b --> c
+        s ----------^
+              a ----------^
     """
     a = case.formula("a", lambda x: x + 1.0, s)
     b = case.formula("b", lambda x, y: x + y, s, a)
@@ -89,14 +101,16 @@ def skip(case: Case, s: Cell) -> Cell:
 
 
 def ladder(case: Case, s: Cell) -> Cell:
-    """
-       S
-      / \\
-     l0   r0
-     | X |      each layer reads both cells of the one before: 2 ** 12 paths
-    l1   r1
-     | X |
-      ...
+    r"""
+    A ladder of crossing layers: each reads both cells of the one before, so there are 2 ** 7 paths.
+
+            s
+           / \
+         l0   r0
+          | X |
+         l1   r1
+          | X |
+           ...
     """
     left = case.formula("l0", lambda x: x + 1.0, s)
     right = case.rule("r0", lambda: s.now() - 1.0)
@@ -113,22 +127,26 @@ def _sum_of(case: Case, name: str, left: Cell, right: Cell) -> Cell:
 
 
 def fan(case: Case, s: Cell) -> Cell:
-    """
-       S
-    / / | \\ \\
-      f0 f1 ... f9
-    \\ \\ | / /
-       sum
+    r"""
+    A fan, gathered again.
+
+              s
+          / /   \ \
+        f0 f1 ... f9
+          \ \   / /
+             sum
     """
     leaves = [case.formula(f"f{i}", lambda x, i=i: x + i, s) for i in range(10)]
     return case.formula("sum", lambda *xs: math.fsum(xs), *leaves)
 
 
 def triangle(case: Case, s: Cell) -> Cell:
-    """
-    S -> a -> b -> c -> d
-         |    |    |    |
-         +----+----+----+--> sum
+    r"""
+    A chain whose every cell is read by the last one.
+
+        s --> a --> b --> c --> d
+              |     |     |     |
+              +-----+-----+-----+--> sum
     """
     cells: list[Cell] = [s]
     for name in "abcd":
@@ -137,10 +155,11 @@ def triangle(case: Case, s: Cell) -> Cell:
 
 
 def repeated(case: Case, s: Cell) -> Cell:
-    """
-    S ==> a      read many times over, by a formula and by a rule
-    s ==> b
-    a, b -> c
+    r"""
+    A source that is read many times over, by a formula and by a rule.
+
+        s ==> a ==> c
+        s ==> b --> c
     """
     a = case.formula("a", lambda *xs: math.fsum(xs), s, s, s)
     b = case.rule("b", lambda: math.fsum(s.now() for _ in range(30)))
@@ -148,12 +167,14 @@ def repeated(case: Case, s: Cell) -> Cell:
 
 
 def unstable(case: Case, s: Cell) -> Cell:
-    """
-     S
-    / \\
-    e   o      c reads e, or o, or both, by what s says
-    \\ /
-     c
+    r"""
+    A cell whose order of reading depends on what it reads.
+
+          s
+         / \
+        e   o
+         \ /
+          c
     """
     e = case.formula("e", lambda x: x * 2.0, s)
     o = case.formula("o", lambda x: -x, s)

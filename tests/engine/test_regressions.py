@@ -77,7 +77,9 @@ def test_infinite_times_answer_with_the_extrapolation(cached: Case) -> None:
 
 def test_what_reads_at_inf_hears_of_edits(cached: Case) -> None:
     """
-    S --at inf--> x
+    A link to the end of time is a link.
+
+        s --at inf--> x
     """
     s = cached.steps({0.0: 1.0, 1.0: 2.0})
     x = cached.rule("x", lambda: s.at(INF))
@@ -116,7 +118,7 @@ def test_an_error_of_a_source_holds_where_it_arose() -> None:
         x.at(-2.0)
 
 
-class Particular(Exception):
+class ParticularError(Exception):
     """Cannot be copied: its class wants other arguments than it keeps."""
 
     def __init__(self, *, what: str) -> None:
@@ -129,12 +131,12 @@ def test_an_exception_that_cannot_be_copied_gathers_no_notes(cached: Case) -> No
     s = cached.source(1.0)
 
     def refuse(value: float) -> float:
-        raise Particular(what="luck")
+        raise ParticularError(what="luck")
 
     x = cached.formula("x", refuse, s)
-    raised: list[Particular] = []
+    raised: list[ParticularError] = []
     for _ in range(5):
-        with pytest.raises(Particular, match="no luck") as caught:
+        with pytest.raises(ParticularError, match="no luck") as caught:
             x.at(0.0)
         raised.append(caught.value)
     assert len({id(error) for error in raised}) == 5
@@ -209,7 +211,9 @@ def test_a_bounded_edit_below_a_cell_that_reads_itself_mirrored_ends(cached: Cas
 
 def test_a_second_reader_may_come_after_the_first_is_gone(cached: Case) -> None:
     """
-    S --> x (gone), then s --> y
+    The first reader was never looked up while it lived.
+
+        s --> x (gone)      s --> y, z
     """
     s = cached.source(1.0)
     x = Computed(lambda: s.now() + 1.0, name="x", engine=cached.engine)
@@ -223,11 +227,10 @@ def test_a_second_reader_may_come_after_the_first_is_gone(cached: Case) -> None:
 
 def test_an_evaluation_under_way_reads_nothing_of_an_open_transaction(cached: Case) -> None:
     """
-    G reads f, which is slow, then s, which another thread sets meanwhile in a transaction that fails.
+    The viewer reads f, which is slow, then s, which another thread sets meanwhile in a transaction that fails.
 
-        r --> f --\\
-                   g
-             s ---/
+        r --> f --> g
+              s ----^
     """
     r, s = cached.source(1.0, "r"), cached.source(1.0, "s")
     started, go = threading.Event(), threading.Event()

@@ -9,7 +9,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 from models import answer, naive_answer, same_answer
-from worlds import BUDGETS, Mismatch, Seeded, World, fuzz
+from worlds import BUDGETS, MismatchError, Seeded, World, fuzz
 
 
 class Drawn:
@@ -148,5 +148,5 @@ def test_threads_that_ask_while_one_edits_leave_a_memo_that_tells_the_truth(seed
             for given in ({}, {"a": 2.0}):
                 got, expected = answer(cell, t, **given), naive_answer(cell, t, **given)
                 if not same_answer(got, expected):
-                    raise Mismatch(f"{cell.name} at {t} {given}: got {got}, expected {expected}")
+                    raise MismatchError(f"{cell.name} at {t} {given}: got {got}, expected {expected}")
     world.check()

@@ -23,10 +23,10 @@ from models import (
 
 from reactive4d.engine import Affine, Axis, Cell, Computed, Fixed, Formula, Source, moment, narrow
 
-__all__ = ["Choices", "Mismatch", "Seeded", "World", "fuzz"]
+__all__ = ["Choices", "MismatchError", "Seeded", "World", "fuzz"]
 
 
-class Mismatch(AssertionError):
+class MismatchError(AssertionError):
     """The engine says something else than the naive evaluator, or than it promised."""
 
 
@@ -348,7 +348,7 @@ class World:
         return tuple(sorted(keys.items()))
 
     def ask(self, cell: Cell | None = None, *, intervals: bool = True) -> str:
-        """Ask somewhere; raises `Mismatch` if the answer, or the interval that it claims, is wrong."""
+        """Ask somewhere; raises `MismatchError` if the answer, or the interval that it claims, is wrong."""
         cell = self.pick(self.rules) if cell is None else cell
         t, given = self.time(), self.parameters()
         self.compare(cell, t, given)
@@ -360,14 +360,14 @@ class World:
         """Cached and uncached must say the same."""
         got, expected = answer(cell, t, **given), naive_answer(cell, t, **given)
         if not same_answer(got, expected):
-            raise Mismatch(f"{cell.name} at {t!r} {given}: got {got}, expected {expected}")
+            raise MismatchError(f"{cell.name} at {t!r} {given}: got {got}, expected {expected}")
 
     def compare_interval(self, cell: Cell, t: float, given: dict[str, Any]) -> None:
         """Wherever an answer is said to hold, it is the naive answer."""
         interval = cell.valid(t, **given)
         lo, hi = interval.start, interval.stop
         if not (lo <= t < hi or t == hi == INF):
-            raise Mismatch(f"{cell.name} at {t!r}: said to hold over {interval}")
+            raise MismatchError(f"{cell.name} at {t!r}: said to hold over {interval}")
         expected = naive_answer(cell, t, **given)
         inner = [s for s in GRID if lo < s < hi]
         samples = [lo, INF if hi == INF else math.nextafter(hi, -INF)]
@@ -377,7 +377,8 @@ class World:
             if lo <= s < hi:
                 found = naive_answer(cell, s, **given)
                 if not same_answer(found, expected):
-                    raise Mismatch(f"{cell.name} at {t!r} {given} is {expected} over {interval}, but {found} at {s!r}")
+                    said = f"{expected} over {interval}"
+                    raise MismatchError(f"{cell.name} at {t!r} {given} is {said}, but {found} at {s!r}")
 
     def transact(self, depth: int = 0) -> str:
         """Several edits and asks at once, which may fail half-way."""
