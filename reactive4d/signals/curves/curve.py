@@ -14,9 +14,10 @@ from reactive4d.signals.curves.controls import Key, key_time
 from reactive4d.signals.curves.extrapolations import EXTRAPOLATIONS
 from reactive4d.signals.curves.interpolations import INTERPOLATIONS, Interpolation, Line
 from reactive4d.signals.curves.kinds import space_of
+from reactive4d.signals.curves.mixtures import Known, Mixture, Mixtures
 from reactive4d.signals.curves.pieces import STEADY, Piece, Sample
 from reactive4d.signals.curves.samplers import sampler
-from reactive4d.signals.curves.spaces import Numbers, Space, Vectors
+from reactive4d.signals.curves.spaces import Numbers, Space, Vectors, settled
 from reactive4d.signals.curves.spans import inner_piece, outer_piece
 from reactive4d.signals.easings import Ease, Easing, easing
 
@@ -39,6 +40,8 @@ class Curve:
         before: what holds before the first key, one of `EXTRAPOLATIONS`.
         after: what holds after the last one.
         degree: of a B-spline; fewer keys than degree + 1 lower it.
+        unknowns: values of this type are not known yet: where there are any, the curve answers with a `Mixture` of its
+            keys' values.
 
     Raises:
         TimeError: no keys; a time that is NaN, infinite, or there twice.
@@ -71,6 +74,7 @@ class Curve:
         "rule",
         "space",
         "times",
+        "unknowns",
         "values",
     )
 
@@ -83,6 +87,7 @@ class Curve:
     before: str
     after: str
     degree: int
+    unknowns: type | None
     rule: Interpolation
     line: Line
     knots: list[float] | None  # of a B-spline
@@ -103,28 +108,24 @@ class Curve:
         before: str = "hold",
         after: str = "hold",
         degree: int = 3,
+        unknowns: type | None = None,
     ) -> None:
         times, keys = _in_order(points)
         raw = [key.value for key in keys]
-        space = space_of(times, raw, kind=kind)
-        for name in (before, after):
-            if name not in EXTRAPOLATIONS:
-                raise unknown(name, EXTRAPOLATIONS, what="extrapolation")
-            if name in _NOT_OUTSIDE.get(space.kind, ()):
-                error = ShapeError(f"extrapolation {name!r} is not for values of kind {space.kind!r}")
-                raise hint(error, "hold, cycle and oscillate are")
+        known = [(t, value) for t, value in zip(times, raw, strict=True) if not _is_unknown(value, unknowns)]
+        space: Space | None = None
+        if known or kind is not None:
+            space = space_of([t for t, _ in known], [value for _, value in known], kind=kind)
+        if space is None or len(known) < len(raw):
+            assert unknowns is not None
+            space = Mixtures(space, unknowns)
         name = interpolation or _DEFAULTS.get(space.kind, "linear")
-        rule = INTERPOLATIONS.get(name)
-        if rule is None:
+        if name not in INTERPOLATIONS:
             raise unknown(name, INTERPOLATIONS, what="interpolation")
-        if space.kind not in rule.kinds:
-            known = ", ".join(sorted(other.name for other in INTERPOLATIONS.values() if space.kind in other.kinds))
-            raise hint(
-                ShapeError(f"interpolation {name!r} is not for values of kind {space.kind!r}"),
-                f"these are: {known}" + ("; or kind='number'?" if space.kind == "held" else ""),
-            )
         if type(degree) is not int or degree < 1:
             raise ShapeError(f"degree: expected a whole number, at least 1, got {degree!r}")
+        rule = INTERPOLATIONS[name]
+        _check_together(space, rule, (before, after))
         put = object.__setattr__
         put(self, "space", space)
         put(self, "interpolation", name)
@@ -132,10 +133,13 @@ class Curve:
         put(self, "before", before)
         put(self, "after", after)
         put(self, "degree", degree)
+        put(self, "unknowns", unknowns)
         put(self, "rule", rule)
         if not rule.eased and self.ease is not STEADY:
             raise hint(ShapeError(f"an ease has no effect on {name!r}"), _EASED)
-        self._settle(times, keys, [self._point(t, value) for t, value in zip(times, raw, strict=True)])
+        self._settle(
+            times, list(map(_kept, keys)), [self._point(t, value) for t, value in zip(times, raw, strict=True)]
+        )
         for t, key in zip(times, keys, strict=True):
             self._check(t, key)
 
@@ -156,6 +160,11 @@ class Curve:
         put(self, "_batch", None)
         put(self, "_straight", None)
         put(self, "_offset", None)
+
+    @property
+    def is_live(self) -> bool:
+        """Whether some value is not known yet, so that answers are mixtures."""
+        return isinstance(self.space, Mixtures)
 
     @property
     def bspline_degree(self) -> int:
@@ -189,7 +198,9 @@ class Curve:
                 error = _at(ShapeError(f"handles have no effect on {name!r}"), t)
                 raise hint(error, "interpolation='bezier' and 'hermite' have them")
             try:
-                finite = np.isfinite(self.space.offset(handle[1])).all()
+                offset = self.space.offset(handle[1])
+                parts = [term.point for term in offset.terms] if isinstance(offset, Mixture) else [offset]
+                finite = all(np.isfinite(part).all() for part in parts)
             except ShapeError as error:
                 raise _at(error, t, f"the {side} handle") from None
             if not finite or (name == "hermite" and handle[0] == 0.0):
@@ -259,7 +270,9 @@ class Curve:
         key = value if isinstance(value, Key) else old.with_value(value) if old else Key(value)
         if old is not None and key.same(old):
             return self
-        point = self._point(t, key.value)
+        if self.is_live or _is_unknown(key.value, self.unknowns):
+            return self._restated(dict(zip(self.times, self.keys, strict=True)) | {t: key})
+        key, point = _kept(key), self._point(t, key.value)
         self._check(t, key)
         times, keys, values = list(self.times), list(self.keys), list(self.values)
         if there:
@@ -281,7 +294,44 @@ class Curve:
             raise hint(TimeError(f"the key at {t!r} s is the only one"), "a curve needs a key; set another one first")
         times, keys, values = list(self.times), list(self.keys), list(self.values)
         del times[k], keys[k], values[k]
+        if self.is_live:
+            return self._restated(zip(times, keys, strict=True))
         return self._edited(times, keys, values)
+
+    def with_settings(self, **settings: Any) -> "Curve":
+        """The same keys under other settings: interpolation, ease, before, after, degree, kind.
+
+        >>> Curve({0: 1.0, 2: 3.0}).with_settings(interpolation="step").at(1.0)
+        1.0
+        """
+        return self._restated(zip(self.times, self.keys, strict=True), **settings)
+
+    def with_points(self, points: Mapping[Any, Any]) -> "Curve":
+        """Other keys under the same settings.
+
+        >>> Curve({0: 1.0, 2: 3.0}, ease="in").with_points({0: 4.0})
+        Curve({0.0: 4.0}, ease='in')
+        """
+        return self._restated(points)
+
+    def _restated(self, points: Mapping[Any, Any] | Iterable[tuple[Any, Any]], **settings: Any) -> "Curve":
+        inner = self.space.inner if isinstance(self.space, Mixtures) else self.space
+        usual: dict[str, Any] = {name: getattr(self, name) for name in _SETTINGS}
+        told: dict[str, Any] = usual | {"kind": inner.kind if inner else None} | settings
+        return Curve(points, **told)
+
+    def as_live(self) -> "Curve":
+        """The same keys, their values taken as if they were not known."""
+        if self.is_live:
+            return self
+        new = object.__new__(Curve)
+        for name in ("interpolation", "ease", "before", "after", "degree", "unknowns", "rule"):
+            object.__setattr__(new, name, getattr(self, name))
+        space = Mixtures(self.space, self.unknowns or Known)
+        object.__setattr__(new, "space", space)
+        known = [Known(point, self.answer(point)) for point in self.values]
+        new._settle(list(self.times), list(self.keys), [Mixture({term: 1.0}) for term in known])
+        return new
 
     def moved(self, t: float, to: float) -> "Curve":
         """The same curve with the key at `t` moved to the time `to`, past other keys if need be.
@@ -306,7 +356,7 @@ class Curve:
 
     def _edited(self, times: list[float], keys: list[Key], values: list[Any]) -> "Curve":
         new = object.__new__(Curve)
-        for name in ("space", "interpolation", "ease", "before", "after", "degree", "rule"):
+        for name in ("space", "interpolation", "ease", "before", "after", "degree", "unknowns", "rule"):
             object.__setattr__(new, name, getattr(self, name))
         new._settle(times, keys, values)
         return new
@@ -428,7 +478,8 @@ class Curve:
         raise AttributeError(f"a Curve cannot be changed: {name}")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (self.times, self.keys, self.settings, self.degree)
+        settings = {name: getattr(self, name) for name in _SETTINGS} | {"kind": self.space.kind}
+        return _restore, (self.times, self.keys, settings)
 
     def __repr__(self) -> str:
         points = ", ".join(
@@ -443,20 +494,42 @@ class Curve:
         return f"Curve({{{points}}}{''.join(', ' + text for text in told)})"
 
 
+_SETTINGS: Final = ("interpolation", "ease", "before", "after", "degree", "unknowns")
 _EASED: Final = "linear, slerp, hermite, catmull_rom and tcb take an ease; bezier has handles for that"
 
 
-def _restore(times: Any, keys: Any, settings: Any, degree: int) -> Curve:
-    kind, interpolation, _, ease, before, after = settings
-    return Curve(
-        zip(times, keys, strict=True),
-        interpolation=interpolation,
-        kind=kind,
-        ease=ease,
-        before=before,
-        after=after,
-        degree=degree,
-    )
+def _restore(times: Any, keys: Any, settings: dict[str, Any]) -> Curve:
+    return Curve(zip(times, keys, strict=True), **settings)
+
+
+def _is_unknown(value: Any, unknowns: type | None) -> bool:
+    return unknowns is not None and isinstance(value, unknowns)
+
+
+def _kept(key: Key) -> Key:
+    """A key whose value cannot be changed by whoever gave it."""
+    value = settled(key.value)
+    return key if value is key.value else key.with_value(value)
+
+
+def _check_together(space: Space, rule: Interpolation, outside: tuple[str, str]) -> None:
+    """Refuse what this kind of values cannot do."""
+    kind, name = space.kind, rule.name
+    usable = [other for other in INTERPOLATIONS.values() if kind in other.kinds]
+    refused = _NOT_OUTSIDE.get(kind, ())
+    if isinstance(space, Mixtures):
+        usable = [other for other in usable if not other.measures and not (kind == "rotation" and other.reach)]
+        refused = ("linear", "cycle_offset") if kind == "rotation" else refused
+    alive = ", some of them alive" if isinstance(space, Mixtures) else ""
+    if rule not in usable:
+        error = ShapeError(f"interpolation {name!r} is not for values of kind {kind!r}{alive}")
+        raise hint(error, f"these are: {', '.join(sorted(other.name for other in usable))}")
+    for extrapolation in outside:
+        if extrapolation not in EXTRAPOLATIONS:
+            raise unknown(extrapolation, EXTRAPOLATIONS, what="extrapolation")
+        if extrapolation in refused:
+            error = ShapeError(f"extrapolation {extrapolation!r} is not for values of kind {kind!r}{alive}")
+            raise hint(error, "hold, cycle and oscillate are")
 
 
 def _in_order(points: Mapping[Any, Any] | Iterable[tuple[Any, Any]]) -> tuple[list[float], list[Key]]:

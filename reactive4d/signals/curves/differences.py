@@ -35,16 +35,23 @@ def difference(old: "Curve", new: "Curve") -> list[Span]:
     """
     if old is new:
         return []
+    if old.is_live != new.is_live:
+        # The same keys, once known and once not, are computed in different ways: only what is held stays the same.
+        return _difference(old.as_live(), new.as_live(), held_only=True)
+    return _difference(old, new, held_only=False)
+
+
+def _difference(old: "Curve", new: "Curve", *, held_only: bool) -> list[Span]:
     folding = old.before in FOLDS or old.after in FOLDS or new.before in FOLDS or new.after in FOLDS
     spans: list[Span] = []
     doubtful: list[Span] = []
     for span, a, b in _overlaps(*_pieces(old, new)):
         if not (a.controls or b.controls):
             doubtful.append(span)
-        elif not _agree(a, b, old.space, new.space):
+        elif (held_only and not a.is_held) or not _agree(a, b, old.space, new.space):
             spans.append(span)
     # What repeats the keys is the same only if all of them are.
-    if folding and doubtful and (spans or not _same_ends(old, new) or not _same_modes(old, new)):
+    if folding and doubtful and (spans or held_only or not _same_ends(old, new) or not _same_modes(old, new)):
         spans = sorted(spans + doubtful)
     return _joined(spans)
 

@@ -40,6 +40,7 @@ class Interpolation:
     eased: bool = False  # whether an ease may bend the time within a span
     handles: bool = False  # whether it reads the keys' handles
     tensions: bool = False  # whether it reads the keys' tension, continuity and bias
+    measures: bool = False  # whether it looks at how far the values are apart
 
 
 def _step(line: Line, k: int) -> tuple[tuple[Any, ...], Clock | None]:
@@ -118,8 +119,8 @@ INTERPOLATIONS: Final[Mapping[str, Interpolation]] = MappingProxyType(
             Interpolation("hermite", _PLAIN, 0, _hermite, eased=True, handles=True),
             Interpolation("catmull_rom", _MOVING, 1, _by_time, eased=True),
             Interpolation("catmull_rom_uniform", _FLAT, 1, _by_value(0.0), eased=True),
-            Interpolation("catmull_rom_centripetal", _FLAT, 1, _by_value(0.5), eased=True),
-            Interpolation("catmull_rom_chordal", _FLAT, 1, _by_value(1.0), eased=True),
+            Interpolation("catmull_rom_centripetal", _FLAT, 1, _by_value(0.5), eased=True, measures=True),
+            Interpolation("catmull_rom_chordal", _FLAT, 1, _by_value(1.0), eased=True, measures=True),
             Interpolation("bezier", _PLAIN, 0, _bezier, handles=True),
             Interpolation("bspline", _FLAT, 0, None),
             Interpolation("tcb", _MOVING, 1, _tcb, eased=True, tensions=True),

@@ -18,13 +18,13 @@ from reactive4d.signals.curves import bernstein
 from reactive4d.signals.curves.bernstein import Array
 from reactive4d.signals.rotations import Rotation, slerp, slerp_quaternions
 
-__all__ = ["Colors", "Held", "Numbers", "Rotations", "Space", "Vectors"]
+__all__ = ["Colors", "Held", "Numbers", "Rotations", "Space", "Vectors", "settled"]
 
 
 class Space(ABC):
     """The arithmetic of one kind of values. A *point* is a value as the space computes with it."""
 
-    kind: ClassVar[str]
+    kind: ClassVar[str]  # one of KINDS
     __slots__ = ()
 
     @abstractmethod
@@ -216,7 +216,7 @@ class Held(Space):
 
     def point(self, value: Any) -> Any:
         """The object itself; a list becomes a tuple, an array is frozen, so that an answer cannot be changed."""
-        return _settled(value)
+        return settled(value)
 
     def between(self, controls: tuple[Any, ...]) -> Callable[[float], Any]:
         """Nothing lies between."""
@@ -277,7 +277,8 @@ def _counted(shape: tuple[int, ...]) -> str:
     return f"{shape[0]} numbers" if len(shape) == 1 else f"an array of shape {shape}"
 
 
-def _settled(value: Any) -> Any:
+def settled(value: Any) -> Any:
+    """A value that whoever gave it cannot change: lists become tuples, arrays are frozen copies."""
     if type(value) in (list, tuple):
-        return tuple(map(_settled, value))
+        return tuple(map(settled, value))
     return freeze(np.array(value)) if type(value) is np.ndarray and value.flags.writeable else value

@@ -55,7 +55,8 @@ def outer_piece(curve: "Curve", i: int) -> Piece:
         return Piece(lo, hi, (end,))
     if mode == "linear":
         velocity = _end_velocity(curve, is_first=is_first)
-        return Piece(lo, hi, (end, velocity) if np.any(velocity) else (end,))
+        is_moving = velocity.any() if isinstance(velocity, np.ndarray) else bool(velocity)
+        return Piece(lo, hi, (end, velocity) if is_moving else (end,))
     # Keys that all stand still in one place repeat themselves everywhere.
     alike = curve.space.same
     inner = (curve.piece(k) for k in range(1, len(curve.breaks)))
