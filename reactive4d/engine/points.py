@@ -7,6 +7,8 @@ that equal ones are one object.
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from reactive4d.engine.links import CellRef, reference
+
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Axis
 
@@ -20,14 +22,17 @@ class Point:
 
     def __init__(self, given: Mapping[str, Any]) -> None:
         self.given = dict(given)
-        self.values: dict[Axis, Any] = {}
+        self.values: dict[CellRef[Axis], Any] = {}  # points are kept, and must not keep parameters alive
 
     def value(self, axis: "Axis") -> Any:
         """The value of one parameter here."""
+        ref = axis.ref or reference(axis)
         try:
-            return self.values[axis]
+            return self.values[ref]
         except KeyError:
-            value = self.values[axis] = axis.admit(self.given[axis.name]) if axis.name in self.given else axis.default
+            if len(self.values) > 2 * len(self.given) + 16:
+                self.values = {other: value for other, value in self.values.items() if other() is not None}
+            value = self.values[ref] = axis.admit(self.given[axis.name]) if axis.name in self.given else axis.default
             return value
 
     def shown(self, axis: "Axis") -> Any:
