@@ -53,6 +53,7 @@ __all__ = ["AXIS", "COMPUTED", "FORMULA", "SOURCE", "add_axes", "ask", "bring", 
 
 INF = float("inf")
 SOURCE, AXIS, FORMULA, COMPUTED = 0, 1, 2, 3
+FEW = 4  # inputs that are cheaper looked at again than remembered
 PATIENCE = 3  # restarts after which edits wait
 KEPT = 7  # older contents of a segment, so that with the present one there are as many as a source remembers
 
@@ -66,7 +67,7 @@ def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
         watch(1)
         try:
             hit = bring(engine, cell, t, point, here.me)
-            if hit[4] is None and engine.owner is None and type(hit[2]) is not Failure:
+            if point is None and engine.owner is None and type(hit[2]) is not Failure:
                 cell.hot = hit[:3]
         except CycleFound as found:
             raise cycle_error(found.path) from None
@@ -74,7 +75,7 @@ def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
             error = DepthError(f"{cell.name}: the interpreter's stack is full")
             raise hint(error, "ask from a shallower place; algebra and lift(f) need no stack, opaque rules do") from None
         finally:
-            if watch(-1) == len(engine.logs) and (engine.bytes > engine.limit or engine.unpaid):
+            if not watch(-1) and (engine.bytes > engine.limit or engine.unpaid):
                 engine.trim()
     return hit
 
@@ -248,24 +249,19 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                     _leave(engine, cell, claim)
                 stack.pop()
             elif type(need) is list:
-                for wanted in reversed(need):
-                    if type(wanted) is tuple:
-                        source, at, there = wanted
-                        if at != t or there is not point:
-                            # At another point: that comes first, and alone.
-                            stack.append(claim)
-                            claim = Claim(at, there, me)
-                            claims.append(claim)
-                            t, point = at, there
-                            stack.append(source)
-                            fresh = None
-                            break
-                        wanted = source
-                    busy = wanted.busy
-                    if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
-                        raise CycleFound(_path(me, wanted, t))
-                    stack.append(wanted)
-                    fresh = wanted
+                wanted = need[0]
+                if type(wanted) is tuple:
+                    wanted, at, there = wanted
+                    if at != t or there is not point:
+                        stack.append(claim)
+                        claim = Claim(at, there, me)
+                        claims.append(claim)
+                        t, point = at, there
+                busy = wanted.busy
+                if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
+                    raise CycleFound(_path(me, wanted, t))
+                stack.append(wanted)
+                fresh = wanted
             else:
                 claim.restarts += 1
                 if claim.restarts > PATIENCE and not claim.patient:
@@ -379,37 +375,35 @@ def _leave(engine: "Engine", cell: "Cell", claim: Claim) -> None:
 
 
 def _formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
-    """Answer a cell that declares its inputs: None when done, a list of what is missing, or True to try again."""
+    """Answer a cell that declares its inputs: None when done, [what is missing], or True to try again."""
     inputs = cell.inputs
-    lo, hi = -INF, INF
-    values: list[Any] = []
-    stamps: list[int] = []
-    axes: dict[str, Axis] | None = None
-    missing: list[Any] | None = None
+    kept = claim.kept.pop(cell, None) if claim.kept else None
+    if kept is not None and kept[0] == engine.epoch:
+        _, lo, hi, values, stamps, axes = kept
+        rest = inputs[len(stamps) :]
+    else:
+        lo, hi, values, stamps, axes = -INF, INF, [], [], None
+        rest = inputs
     mapped = type(inputs) is MappedReads
     logs = engine.logs
     bad: Failure | None = None
-    for source in inputs:
+    for source in rest:
         if mapped and type(source) is tuple:
             entry = source
             source, at, there = engine.elsewhere(entry, t, point)
             hit = peek(engine, source, at, there)
             if hit is None:
-                missing = [*(missing or ()), (source, at, there)]
-                continue
+                return [(source, at, there)]
             hit = engine.brought_back(entry, hit, at, t)
         else:
             hit = source.hit
             if not (hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is point)):
                 hit = peek(engine, source, t, point)
                 if hit is None:
-                    if missing is None:
-                        missing = [source]
-                    else:
-                        missing.append(source)
-                    continue
-        if missing is not None:
-            continue
+                    if len(inputs) > FEW:
+                        # Go on from here, else a wide formula would look at its inputs once for each of them.
+                        claim.kept[cell] = engine.epoch, lo, hi, values, stamps, axes
+                    return [source]
         a, b, value, stamp, _, its = hit
         if a > lo:
             lo = a
@@ -427,12 +421,17 @@ def _formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cl
         if type(value) is Failure:
             bad = failure(value.error, cell.name, t, value)
             break
-    if missing is not None:
-        return missing
     reads = inputs if bad is None or len(stamps) == len(inputs) else type(inputs)(inputs[: len(stamps)])
     these = tuple(stamps)
-    table = cell if axes is None else _table(cell, axes, point)
-    segment = covering(table, t)
+    segments = cell.segments
+    if axes is None and len(segments) == 1:
+        table = cell
+        segment = segments[0]
+        if not segment.lo <= t < segment.hi:
+            segment = None
+    else:
+        table = cell if axes is None else _table(cell, axes, point)
+        segment = covering(table, t)
     if segment is not None and not segment.clean:
         if segment.stamps == these and segment.reads == reads:
             _stand(engine, cell, table, segment, lo, hi, point, None)
@@ -464,6 +463,22 @@ def _formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cl
     cell.runs = runs + 1
     if epoch != engine.epoch and not _unmoved(engine, t, point, reads, these):
         return True
+    if (
+        table is cell
+        and segment is not None
+        and len(segments) == 1
+        and segments[0] is segment
+        and not segment.clean
+        and lo <= segment.lo
+        and segment.hi <= hi
+        and cell.linked is inputs
+        and not logs
+    ):
+        # What `_store` would do, for the commonest of cases.
+        engine.clock += 1
+        _renew(engine, segment, value, inputs, these)
+        _publish(engine, cell, segment, None, None)
+        return None
     _store(engine, cell, table, t, lo, hi, point, value, reads, these)
     return None
 
@@ -492,7 +507,7 @@ def _table(cell: "Cell", axes: "dict[str, Axis]", point: "Point | None") -> Tabl
 
 
 def _task(engine: "Engine", task: Task, claim: Claim) -> Any:
-    """Answer a cell whose rule is opaque: None when done, a list of what is missing, or True to try again."""
+    """Answer a cell whose rule is opaque: None when done, [what is missing], or True to try again."""
     cell, t, point = task.cell, task.t, task.point
     if task.candidates is None or task.epoch != engine.epoch:
         task.begin(engine.epoch)
@@ -746,17 +761,7 @@ def _store(
         else:
             lo, hi = max(lo, segment.lo), min(hi, segment.hi)
             split(table, segment, lo, hi)
-        before = segment.value
-        segment.older = ((before, segment.stamp, segment.reads, segment.stamps), *segment.older[: KEPT - 1])
-        segment.retired = engine.revivals
-        cut_off = before is value or _equal(engine, before, value)
-        if not cut_off:
-            segment.value = value
-            segment.stamp = engine.stamp()
-            engine.bytes += CONTENT + (24 if type(value) is float else engine.measure(value))
-        segment.reads = reads
-        segment.stamps = stamps
-        segment.clean = True
+        cut_off = _renew(engine, segment, value, reads, stamps)
         if logs:
             engine.emit("evaluated", cell, lo, hi)
             if cut_off:
@@ -768,6 +773,22 @@ def _store(
     else:
         cell.shelves.cover = None
         _publish(engine, cell, segment, point, _axes_of(cell, table))
+
+
+def _renew(engine: "Engine", segment: Segment, value: Any, reads: tuple[Any, ...], stamps: tuple[int, ...]) -> bool:
+    """Give a segment in check its new answer, and keep the old one for undoing; True if they are the same."""
+    before = segment.value
+    segment.older = ((before, segment.stamp, segment.reads, segment.stamps), *segment.older[: KEPT - 1])
+    segment.retired = engine.revivals
+    segment.reads = reads
+    segment.stamps = stamps
+    segment.clean = True
+    if before is value or _equal(engine, before, value):
+        return True
+    segment.value = value
+    segment.stamp = engine.stamp()
+    engine.bytes += CONTENT + (24 if type(value) is float else engine.measure(value))
+    return False
 
 
 def _insert(

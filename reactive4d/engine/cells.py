@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import asks, edits, naive
 from reactive4d.engine.failures import Failure, raised
-from reactive4d.engine.frames import NEVER, Cancelled, Claim, Crowd, Hit, Task, here
-from reactive4d.engine.hits import COLD, Hits
+from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, Hit, Task, here
+from reactive4d.engine.hits import COLD, COOL, Hits
 from reactive4d.engine.maps import Fixed, TimeMap
 from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.stamps import Stamps, piece
@@ -34,7 +34,7 @@ INF = math.inf
 class Cell(Hits):
     """A value that depends on where one asks, and is computed when, and only when, somebody asks."""
 
-    __slots__ = ("__weakref__", "busy", "cost", "engine", "enlisted", "hit", "hits", "linked", "name", "readers", "ref", "runs", "shelves")
+    __slots__ = ("__weakref__", "busy", "cost", "enlisted", "hit", "linked", "name", "readers", "ref", "runs", "shelves")
 
     kind = asks.COMPUTED
     unchanging = False
@@ -50,6 +50,7 @@ class Cell(Hits):
         self.name = name if name is not None else type(self).__name__.lower()
         self.hit: Hit = NEVER
         self.hot = COLD
+        self.warm = COOL
         self.readers: Any = None
         self.ref: Any = None
         self.linked: tuple[Any, ...] | None = None
@@ -82,9 +83,15 @@ class Cell(Hits):
             if self._is_batch(t):
                 return self._batch(t, parameters)
             t = as_time(t, self)
-        value = self._hit_at(t, parameters)[2]
+        lo, hi, value, _, point, axes = self._hit_at(t, parameters)
         if type(value) is Failure:
             raise raised(value)
+        if parameters:
+            with LOCK:
+                # Handed out without a search from now on, unless it was edited or became another point's meanwhile.
+                hit = self.hit
+                if hit[0] == lo and hit[1] == hi and hit[2] is value and (axes is None or hit[4] is point):
+                    self.warm = (lo, hi, value, parameters)
         return value
 
     def _is_batch(self, t: Any) -> bool:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.frames import CHANGED, LOCK, NEVER, Me, here
-from reactive4d.engine.hits import COLD
+from reactive4d.engine.hits import COLD, COOL
 from reactive4d.engine.marks import mark, push
 from reactive4d.engine.stamps import Stamps, assigned
 from reactive4d.errors import EvaluationError, hint
@@ -81,6 +81,7 @@ def _apply(
     source.stamps = stamps
     source.hit = NEVER
     source.hot = COLD
+    source.warm = COOL
     source.adopt()
     for lo, hi in spans:
         if engine.logs:

@@ -11,7 +11,7 @@ from reactive4d.engine import checks, edits, evictions, explanations, graphs, na
 from reactive4d.engine.events import Event
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import CHANGED, LOCK, CycleFound, Hit, Me, here
-from reactive4d.engine.hits import watch
+from reactive4d.engine.hits import listen, watch
 from reactive4d.engine.points import Point
 from reactive4d.engine.segments import Segment
 from reactive4d.errors import ParameterError, TimeError, unknown
@@ -243,14 +243,14 @@ class Engine:
         events: list[Event] = []
         with LOCK:
             self.logs.append(events)
-            watch(1)
+            listen(1)
         try:
             yield events
         finally:
             with LOCK:
                 # By identity: two logs may hold equal events.
                 self.logs = [log for log in self.logs if log is not events]
-                watch(-1)
+                listen(-1)
 
     def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:
         """What was computed and what reused to answer at a point, and why, as an indented text."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.failures import Failure
 from reactive4d.engine.frames import NEVER
-from reactive4d.engine.hits import COLD
+from reactive4d.engine.hits import COLD, COOL
 from reactive4d.engine.links import link, readers_of, reference
 from reactive4d.engine.marks import mark, push
 from reactive4d.engine.segments import EMPTY, MappedReads, Segment, Table
@@ -239,6 +239,7 @@ def _evict(engine: "Engine", cell: "Cell", table: Table, segment: Segment) -> No
     if cell.hit[0] < segment.hi and segment.lo < cell.hit[1]:
         cell.hit = NEVER
     cell.hot = COLD
+    cell.warm = COOL
     engine.bytes -= SEGMENT + _size(engine, segment.value)
     for old in segment.older:
         engine.bytes -= CONTENT + _size(engine, old[0])
@@ -300,7 +301,7 @@ def forget(engine: "Engine", cells: "Iterable[Cell] | None") -> None:
         if cell.busy is not None:
             continue
         if cell.kind >= 2:
-            cell.hit, cell.hot = NEVER, COLD
+            cell.hit, cell.hot, cell.warm = NEVER, COLD, COOL
         for table in tables(cell):
             table.starts, table.segments = EMPTY, EMPTY
         cell.shelves = None

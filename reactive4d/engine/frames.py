@@ -79,7 +79,7 @@ here = _Here()
 class Claim:
     """One thread bringing cells up to date at one point."""
 
-    __slots__ = ("me", "patient", "point", "restarts", "t")
+    __slots__ = ("kept", "me", "patient", "point", "restarts", "t")
 
     kind = CLAIM
 
@@ -87,6 +87,7 @@ class Claim:
         self.t = t
         self.point = point
         self.me = me
+        self.kept: dict[Cell, Any] = {}  # what wide formulas have gathered so far
         self.restarts = 0
         self.patient = False  # whether edits wait for it
 

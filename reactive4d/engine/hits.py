@@ -1,33 +1,58 @@
 """Handing out what is remembered, without a lock and without a search: the way of most asks."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from reactive4d.engine.events import Event
+from reactive4d.engine.frames import here
 from reactive4d.engine.segments import Table
 
-__all__ = ["COLD", "Hits", "watch"]
+if TYPE_CHECKING:
+    from reactive4d.engine.engines import Engine
+
+__all__ = ["COLD", "COOL", "Hits", "Hot", "Warm", "listen", "watch"]
 
 INF = float("inf")
 
-# (lo, hi, answer) of a cell that has nothing to hand out: no time lies in it.
-COLD: tuple[float, float, Any] = (INF, -INF, None)
+# (lo, hi, answer) as last asked with no parameters given.
+Hot = tuple[float, float, Any]
 
-# Evaluations under way and open logs, in the whole process. Where there is none, nobody needs to know who asks.
-_watching = 0
+# (lo, hi, answer, parameters) as last asked with some.
+Warm = tuple[float, float, Any, dict[str, Any]]
+
+# What a cell has published that has nothing to hand out: no time lies in it.
+COLD: Hot = (INF, -INF, None)
+COOL: Warm = (INF, -INF, None, {})
+
+# Evaluations under way, and open logs, in the whole process; and both. Where there are none, nobody needs to know who asks.
+_evaluating = 0
+_logging = 0
+_attended = 0
 
 
 def watch(change: int) -> int:
-    """Add to the count of evaluations under way and open logs, and return it; the lock is held."""
-    global _watching  # noqa: PLW0603  read by every ask: an attribute or a list would cost each of them
-    _watching += change
-    return _watching
+    """Add to the count of evaluations under way, and return it; the lock is held."""
+    global _evaluating, _attended
+    _evaluating += change
+    _attended += change
+    return _evaluating
+
+
+def listen(change: int) -> None:
+    """Add to the count of open logs; the lock is held."""
+    global _logging, _attended
+    _logging += change
+    _attended += change
 
 
 class Hits(Table):
-    """What a cell answered last at the parameters' defaults, published as one tuple: it is there whole or not at all."""
+    """What a cell answered last from outside, published as a tuple: it is there whole or not at all."""
 
-    __slots__ = ("hot",)
+    __slots__ = ("engine", "hits", "hot", "warm")
 
-    hot: tuple[float, float, Any]
+    engine: "Engine"
+    hits: int
+    hot: Hot
+    warm: Warm
 
     def at(self, t: float, /, **parameters: Any) -> Any:
         """The answer at one instant; of a signal also the answers at an array of times.
@@ -48,9 +73,31 @@ class Hits(Table):
             Exception: whatever the rule raised, with the path to it as notes.
         """
         lo, hi, value = self.hot
-        if t.__class__ is float and lo <= t < hi and not parameters and not _watching:
-            return value
+        if t.__class__ is float and lo <= t < hi and not parameters:
+            if not _attended:
+                return value
+            if not _evaluating or here.me.frame is None:
+                return self._logged(lo, hi, value) if _logging else value
+        elif parameters:
+            lo, hi, value, given = self.warm
+            if t.__class__ is float and lo <= t < hi and not _logging and _alike(parameters, given):
+                if not _evaluating or here.me.frame is None:
+                    return value
         return self._asked(t, parameters)
+
+    def _logged(self, lo: float, hi: float, value: Any) -> Any:
+        """Hand out an answer, and tell the open logs of it."""
+        self.hits += 1
+        for log in self.engine.logs:
+            log.append(Event("reused", self.name, lo, hi))  # type: ignore[attr-defined]
+        return value
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         raise NotImplementedError
+
+
+def _alike(these: dict[str, Any], those: dict[str, Any]) -> bool:
+    try:
+        return these == those
+    except ValueError:  # an array among the values
+        return False

@@ -7,7 +7,7 @@ next to nothing. It has a stack of its own: no depth of links is too deep.
 from typing import TYPE_CHECKING
 
 from reactive4d.engine.frames import NEVER
-from reactive4d.engine.hits import COLD
+from reactive4d.engine.hits import COLD, COOL
 from reactive4d.engine.links import Readers, preimages, readers_of
 from reactive4d.engine.segments import flip
 
@@ -29,6 +29,7 @@ def mark(engine: "Engine", cell: "Cell", lo: float, hi: float) -> tuple[float, f
     hot = cell.hot
     if hot[0] < hi and lo < hot[1]:
         cell.hot = COLD
+    cell.warm = COOL
     changed = flip(cell, lo, hi)
     if cell.shelves is not None and cell.shelves.mark(lo, hi):
         changed = (lo, hi)
@@ -46,14 +47,32 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
         readers = cell.readers
         if readers is None:
             continue
-        if type(readers) is not Readers:
+        while type(readers) is not Readers and readers is not None:
+            # A chain: each has one reader.
             reader = readers()
             if reader is None:
-                cell.readers = None
-                continue
+                cell.readers = readers = None
+                break
+            segments = reader.segments
+            if len(segments) == 1 and reader.shelves is None and not engine.logs:
+                segment = segments[0]
+                if not segment.clean:
+                    readers = None
+                    break
+                if lo <= segment.lo and segment.hi <= hi:
+                    segment.clean = False
+                    lo, hi = segment.lo, segment.hi
+                    reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
+                    cell = reader
+                    readers = cell.readers
+                    continue
             changed = mark(engine, reader, lo, hi)
-            if changed is not None:
-                stack.append((reader, *changed))
+            if changed is None:
+                readers = None
+                break
+            cell, (lo, hi) = reader, changed
+            readers = cell.readers
+        if readers is None:
             continue
         for reader, maps in readers_of(cell):
             for a, b in preimages(maps, lo, hi):
