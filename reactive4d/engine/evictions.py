@@ -116,9 +116,10 @@ def _is_covered(cell: "Cell", segment: Segment) -> bool:
 
 def _latest(cell: "Cell") -> Segment | None:
     latest: Segment | None = None
-    for segment in cell.segments:
-        if latest is None or segment.touched >= latest.touched:
-            latest = segment
+    for table in tables(cell):
+        for segment in table.segments:
+            if latest is None or segment.touched >= latest.touched:
+                latest = segment
     return latest
 
 
