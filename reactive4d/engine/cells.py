@@ -1,9 +1,9 @@
 """Cells: what the graph is made of. A cell answers at any point, and remembers where each answer holds.
 
-    Source    holds a content that one sets, and answers from it
-    Axis      a reader's parameter: answers with the value at the point where one asks
-    Formula   a function of the answers of declared inputs, all at the asker's point or through known maps of time
-    Computed  an opaque rule without arguments, which reads other cells
+Source    holds a content that one sets, and answers from it
+Axis      a reader's parameter: answers with the value at the point where one asks
+Formula   a function of the answers of declared inputs, all at the asker's point or through known maps of time
+Computed  an opaque rule without arguments, which reads other cells
 """
 
 import math
@@ -12,18 +12,21 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import asks, edits, naive
+from reactive4d.engine.answers import add_axes
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, Hit, Task, here
 from reactive4d.engine.hits import COLD, COOL, Hits
+from reactive4d.engine.kinds import AXIS, COMPUTED, FORMULA, SOURCE
 from reactive4d.engine.maps import Fixed, TimeMap
+from reactive4d.engine.peeks import recheck
 from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.stamps import Stamps, piece
+from reactive4d.engine.walks import wait_for_transaction
 from reactive4d.errors import EvaluationError, ParameterError, TimeError, hint
 from reactive4d.intervals import Interval
 
 if TYPE_CHECKING:
     from reactive4d.engine.engines import Engine
-    from reactive4d.engine.points import Point
     from reactive4d.engine.shelves import Shelves
 
 __all__ = ["Axis", "Cell", "Computed", "Formula", "Source", "moment", "narrow", "sealed"]
@@ -34,9 +37,21 @@ INF = math.inf
 class Cell(Hits):
     """A value that depends on where one asks, and is computed when, and only when, somebody asks."""
 
-    __slots__ = ("__weakref__", "busy", "cost", "enlisted", "hit", "linked", "name", "readers", "ref", "runs", "shelves")
+    __slots__ = (
+        "__weakref__",
+        "busy",
+        "cost",
+        "enlisted",
+        "hit",
+        "linked",
+        "name",
+        "readers",
+        "ref",
+        "runs",
+        "shelves",
+    )
 
-    kind = asks.COMPUTED
+    kind = COMPUTED
     unchanging = False
     inputs: tuple[Any, ...] = ()
 
@@ -145,7 +160,7 @@ class Cell(Hits):
         return value
 
     def _note_axes(self, frame: Task, axes: Any) -> None:
-        frame.axes, problem = asks.add_axes(frame.cell, frame.axes, axes)
+        frame.axes, problem = add_axes(frame.cell, frame.axes, axes)
         if problem is not None:
             raise problem
 
@@ -189,7 +204,9 @@ class Cell(Hits):
         return hit[2]
 
     def __repr__(self) -> str:
-        state = "never asked" if not self.segments else "up to date" if all(s.clean for s in self.segments) else "to check"
+        state = (
+            "never asked" if not self.segments else "up to date" if all(s.clean for s in self.segments) else "to check"
+        )
         return f"<{type(self).__name__} {self.name}: {state}>"
 
 
@@ -211,7 +228,7 @@ class Source(Cell):
 
     __slots__ = ("content", "history", "stamps")
 
-    kind = asks.SOURCE
+    kind = SOURCE
 
     def __init__(self, content: Any, *, name: str | None = None, engine: "Engine | None" = None) -> None:
         super().__init__(name=name, engine=engine)
@@ -245,13 +262,13 @@ class Source(Cell):
             raise EvaluationError(f"{self.name}.note() outside of an evaluation")
         if frame.naive is not None:
             return self.content
-        with asks.LOCK:
+        with LOCK:
             engine = self.engine
             if engine.epoch != frame.epoch:
-                asks.recheck(engine, frame)
+                recheck(engine, frame)
             if engine.owner is not None and engine.owner is not frame.me:
-                asks.wait_for_transaction(engine, frame.me)
-                asks.recheck(engine, frame)
+                wait_for_transaction(engine, frame.me)
+                recheck(engine, frame)
             lo, hi, stamp = piece(self.stamps, frame.t)
             content = self.content
         frame.lo, frame.hi = max(frame.lo, lo), min(frame.hi, hi)
@@ -265,7 +282,7 @@ class Axis(Cell):
 
     __slots__ = ("default",)
 
-    kind = asks.AXIS
+    kind = AXIS
     unchanging = True
 
     def __init__(self, name: str, default: Any, *, engine: "Engine | None" = None) -> None:
@@ -300,7 +317,7 @@ class Formula(Cell):
 
     __slots__ = ("function", "inputs")
 
-    kind = asks.FORMULA
+    kind = FORMULA
 
     def __init__(
         self,
@@ -327,17 +344,14 @@ class Computed(Cell):
 
     __slots__ = ("rule",)
 
-    def __init__(
-        self, rule: Callable[[], Any], /, *, name: str | None = None, engine: "Engine | None" = None
-    ) -> None:
+    def __init__(self, rule: Callable[[], Any], /, *, name: str | None = None, engine: "Engine | None" = None) -> None:
         super().__init__(name=name if name is not None else getattr(rule, "__name__", None), engine=engine)
         self.rule = rule
 
 
 def sealed(function: Callable[..., Any], name: str) -> Callable[..., Any]:
     """A function of values that may read nothing: what it reads could not be known to whoever asks for the answer."""
-    guard = Task(Cell(name=name), math.nan, None, here.me)
-    guard.run(0)
+    guard = Task(Cell(name=name), math.nan, None, here.me, 0)
     guard.naive = naive.SEALED
 
     def call(*values: Any) -> Any:

@@ -82,8 +82,12 @@ def _check_clean(engine: "Engine", cell: "Cell", segment: "Segment", *, is_main:
                 assert found == stamp, f"{cell.name} {segment} read {source.name} at {at} with {stamp}, it has {found}"
             elif source.kind != 1 and is_main:
                 below = covering(source, at)
-                assert below is not None and below.clean, f"{cell.name} {segment} is clean, {source.name} is not at {at}"
-                assert below.stamp == stamp, f"{cell.name} {segment} read {source.name} with {stamp}, it has {below.stamp}"
+                assert below is not None and below.clean, (
+                    f"{cell.name} {segment} is clean, {source.name} is not at {at}"
+                )
+                assert below.stamp == stamp, (
+                    f"{cell.name} {segment} read {source.name} with {stamp}, it has {below.stamp}"
+                )
 
 
 def _probes(segment: "Segment") -> list[float]:

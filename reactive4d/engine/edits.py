@@ -73,9 +73,7 @@ def _keep(source: "Source") -> None:
     source.history = ((source.content, source.stamps), *source.history[: REMEMBERED - 2])
 
 
-def _apply(
-    engine: "Engine", source: "Source", content: Any, stamps: Stamps, spans: list[tuple[float, float]]
-) -> None:
+def _apply(engine: "Engine", source: "Source", content: Any, stamps: Stamps, spans: list[tuple[float, float]]) -> None:
     engine.epoch += 1
     source.content = content
     source.stamps = stamps

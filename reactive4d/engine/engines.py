@@ -17,7 +17,7 @@ from reactive4d.engine.segments import Segment
 from reactive4d.errors import ParameterError, TimeError, unknown
 
 if TYPE_CHECKING:
-    from reactive4d.engine.cells import Axis, Cell
+    from reactive4d.engine.cells import Cell
 
 __all__ = ["Engine", "engine"]
 
@@ -187,7 +187,7 @@ class Engine:
         try:
             value = naive.evaluate(cell, min(float(t), LATEST) + 0.0, point)
         except CycleFound as found:
-            from reactive4d.engine.asks import cycle_error
+            from reactive4d.engine.walks import cycle_error
 
             raise cycle_error(found.path) from None
         finally:

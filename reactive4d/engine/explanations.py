@@ -74,9 +74,7 @@ def _found(engine: "Engine", cell: "Cell", t: float, point: Any) -> Segment | No
     return None
 
 
-def _line(
-    cell: "Cell", t: float, segment: Segment | None, how: str, before: Any, stale: Any, *, again: bool
-) -> str:
+def _line(cell: "Cell", t: float, segment: Segment | None, how: str, before: Any, stale: Any, *, again: bool) -> str:
     if cell.kind < 2:
         return f"{cell.name}{how}: {'parameter' if cell.kind else 'source'}"
     if segment is None:

@@ -1,9 +1,9 @@
 """Who is asking: the evaluation that a thread is in, where it waits, and the ways in which an evaluation is unwound.
 
 A `Claim` says which thread is bringing cells up to date, and at which point: while it stands on a cell, other threads
-wait for the answer instead of computing it too. A `Task` is an opaque rule being checked or run: while it runs it is the
-thread's `frame`, every read adds what was read to `deps` and narrows the interval over which the answer will hold. `Me`
-is a thread; the thread local `here` finds it.
+wait for the answer instead of computing it too. A `Task` is an opaque rule that runs: it is the thread's `frame`, every
+read adds what was read to `deps` and narrows the interval over which the answer will hold. `Me` is a thread; the thread
+local `here` finds it.
 """
 
 import threading
@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
     from reactive4d.engine.points import Point
-    from reactive4d.engine.segments import Segment, Table
 
-__all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "TASK", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me"]
+__all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me"]
 __all__ += ["Suspended", "Task", "here"]
 
 INF = float("inf")
-TASK, CLAIM = 4, 5
+CLAIM = 4  # as a cell's kind
 
 # (lo, hi, value, stamp, point, axes): where an answer holds, the answer, its stamp, the point that it was asked at (None
 # where the default point will do) and the parameters that it read (None where it read none).
@@ -87,7 +86,7 @@ class Claim:
         self.t = t
         self.point = point
         self.me = me
-        self.kept: dict[Cell, Any] = {}  # what wide formulas have gathered so far
+        self.kept: dict[Cell, Any] = {}  # how far cells with many inputs have come
         self.restarts = 0
         self.patient = False  # whether edits wait for it
 
@@ -99,19 +98,16 @@ class Crowd(list[Claim]):
 
 
 class Task:
-    """An opaque rule at one point: first what it remembers is checked, then, if need be, it is run."""
+    """An opaque rule that runs at one point, and what it has read so far."""
 
     __slots__ = (
         "axes",  # {name: Axis} that were read so far, or None
-        "candidates",  # remembered contents that may still stand, the likeliest last; None: not looked for yet
         "cell",
-        "claim",
         "clock",  # the time for which remembered answers may be read: nan where none may
         "deps",  # {cell or (cell, map, overrides): stamp} in the order of reading
         "epoch",  # the engine's count of edits when reading began
         "handed",  # the very `t` object that a rule with an argument was given
         "hi",
-        "index",  # how far the dependencies of a candidate have been walked
         "lo",
         "mapped",  # whether some dependency was read elsewhere in time
         "me",
@@ -123,30 +119,17 @@ class Task:
         "t",
     )
 
-    kind = TASK
-
-    candidates: "list[tuple[Segment, Any, Table]] | None"
-
-    def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me) -> None:
+    def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me, epoch: int) -> None:
         self.cell = cell
         self.t = self.clock = t
         self.point = point
         self.me = me
-        self.candidates = None
-        self.naive: Any = None
-
-    def begin(self, epoch: int) -> None:
-        """Forget what was read so far: reading begins, in a state of the model that `epoch` names."""
         self.epoch = epoch
         self.lo = -INF
         self.hi = INF
-        self.axes: dict[str, Any] | None = None
-        self.index = 0
-
-    def run(self, epoch: int) -> None:
-        """Begin, with nothing read yet."""
-        self.begin(epoch)
         self.deps: dict[Any, int] = {}
+        self.axes: dict[str, Any] | None = None
         self.mapped = False
         self.raised: tuple[BaseException, Any] | None = None
         self.handed: Any = None
+        self.naive: Any = None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.failures import Failure, failure, raised
 from reactive4d.engine.frames import CycleFound, Task, here
+from reactive4d.engine.kinds import AXIS, FORMULA, SOURCE
 from reactive4d.engine.segments import MappedReads
 from reactive4d.errors import EvaluationError, ParameterError, hint
 
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 __all__ = ["SEALED", "evaluate", "read"]
 
 SEALED: Any = object()  # a frame's `naive` where a function of values runs, which may read nothing
-
-SOURCE, AXIS, FORMULA = 0, 1, 2
 
 
 def evaluate(cell: "Cell", t: float, point: "Point | None", parent: Task | None = None) -> Any:
@@ -41,8 +40,7 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
             raise CycleFound(path[::-1])
         other = other.parent
     me = here.me
-    task = Task(cell, t, point, me)
-    task.run(0)
+    task = Task(cell, t, point, me, 0)
     task.parent = parent
     task.clock = nan
     task.naive = _Reads()

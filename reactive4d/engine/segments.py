@@ -32,7 +32,14 @@ class Segment:
     __slots__ = ("clean", "hi", "lo", "older", "reads", "retired", "stamp", "stamps", "touched", "value")
 
     def __init__(
-        self, lo: float, hi: float, value: Any, stamp: int, reads: tuple[Any, ...], stamps: tuple[int, ...], touched: int
+        self,
+        lo: float,
+        hi: float,
+        value: Any,
+        stamp: int,
+        reads: tuple[Any, ...],
+        stamps: tuple[int, ...],
+        touched: int,
     ) -> None:
         self.lo = lo
         self.hi = hi

@@ -22,10 +22,11 @@ MOST_MARKS = 32
 class ShelfTable(Table):
     """The answers at one combination of parameter values, and how many marks were applied to them."""
 
-    __slots__ = ("seen",)
+    __slots__ = ("axes", "seen")
 
-    def __init__(self, seen: int) -> None:
+    def __init__(self, axes: "tuple[Axis, ...]", seen: int) -> None:
         super().__init__()
+        self.axes = axes
         self.seen = seen
 
 
@@ -86,7 +87,7 @@ class Shelves:
         table = shelf.tables.get(key)
         if table is None:
             if make:
-                table = shelf.tables[key] = ShelfTable(self.count)
+                table = shelf.tables[key] = ShelfTable(shelf.axes, self.count)
             return table
         self.settle(table)
         return table

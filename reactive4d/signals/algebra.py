@@ -36,7 +36,9 @@ class Operation(Signal[T], Formula):
     def vectorised(self, *values: Any) -> Any:
         """The answers at many times, from those of the inputs: each (N, …), or a tuple of N."""
         found = iter(values)
-        return self.operator.many([next(found) if isinstance(x, Signal) else kernels.Constant(x) for x in self.operands])
+        return self.operator.many(
+            [next(found) if isinstance(x, Signal) else kernels.Constant(x) for x in self.operands]
+        )
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]

@@ -15,6 +15,7 @@ from reactive4d.engine import Cell, asks
 from reactive4d.engine.evictions import SEGMENT, enlist
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import LOCK, here
+from reactive4d.engine.kinds import AXIS, SOURCE
 from reactive4d.engine.links import ANYWHERE, add_link
 from reactive4d.engine.points import Point
 from reactive4d.engine.shelves import Shelves
@@ -63,7 +64,7 @@ def batch(signal: Signal[Any], times: Any, parameters: dict[str, Any]) -> Any:
     """The answers of a signal at (N,) times, from outside of any evaluation."""
     ts = as_times(times, signal.name)
     engine = signal.engine
-    if signal.kind == asks.SOURCE and hasattr(signal, "sample_many") and engine.owner is None:
+    if signal.kind == SOURCE and hasattr(signal, "sample_many") and engine.owner is None:
         return freeze(signal.sample_many(ts))  # pyright: ignore
     point = engine.point(parameters) if parameters else None
     digest = ts.tobytes()
@@ -142,7 +143,7 @@ class _Walk:
             if cell in done:
                 todo.pop()
                 continue
-            if hasattr(cell, "vectorised") and cell.kind != asks.SOURCE and type(cell.inputs) is tuple:
+            if hasattr(cell, "vectorised") and cell.kind != SOURCE and type(cell.inputs) is tuple:
                 missing = [x for x in cell.inputs if x not in done]
                 if missing:
                     todo.extend(missing)
@@ -162,12 +163,12 @@ class _Walk:
             raise _NotTogether from error
 
     def _other(self, cell: Any, ts: Any) -> Any:
-        if cell.kind == asks.AXIS:
+        if cell.kind == AXIS:
             self.axes[cell] = None
             value = cell.hit[2] if self.point is None else self.point.shown(cell)
             return _repeated(value, len(ts))
         self.leaf(cell, ts)
-        if cell.kind == asks.SOURCE:
+        if cell.kind == SOURCE:
             if hasattr(cell, "sample_many"):
                 return cell.sample_many(ts)
             return _stacked([cell.sample(float(t))[2] for t in ts])

@@ -71,5 +71,3 @@ def where(condition: Any, yes: Any, no: Any) -> Signal[Any]:
     if not isinstance(condition, Signal):
         raise TypeError(f"where: expected a signal as condition, got {condition!r}")
     return Choice(condition, operand(yes), operand(no))
-
-

@@ -150,9 +150,7 @@ def _checked(python: Callable[..., Any]) -> Callable[..., Any]:
         try:
             return python(a, b)
         except ValueError:
-            raise ShapeError(
-                f"{python.__name__}: shapes {np.shape(a)} and {np.shape(b)} do not fit together"
-            ) from None
+            raise ShapeError(f"{python.__name__}: shapes {np.shape(a)} and {np.shape(b)} do not fit together") from None
 
     return one
 
@@ -216,10 +214,17 @@ OPERATORS: dict[str, Operator] = {
     "sub": Operator("sub", op.sub, np.subtract, pattern="({} - {})", symbol=np.subtract),
     "mul": Operator("mul", op.mul, np.multiply, pattern="{} * {}", symbol=np.multiply),
     "matmul": Operator("matmul", _silent(np.matmul), None, pattern="{} @ {}", symbol=np.matmul),
-    "truediv": Operator("truediv", _arrays(op.truediv, np.true_divide), np.true_divide, pattern="{} / {}",
-                        symbol=np.true_divide),
-    "floordiv": Operator("floordiv", _arrays(op.floordiv, np.floor_divide), np.floor_divide, pattern="{} // {}",
-                         is_step=True, symbol=np.floor_divide),
+    "truediv": Operator(
+        "truediv", _arrays(op.truediv, np.true_divide), np.true_divide, pattern="{} / {}", symbol=np.true_divide
+    ),
+    "floordiv": Operator(
+        "floordiv",
+        _arrays(op.floordiv, np.floor_divide),
+        np.floor_divide,
+        pattern="{} // {}",
+        is_step=True,
+        symbol=np.floor_divide,
+    ),
     "mod": Operator("mod", _arrays(op.mod, np.mod), np.mod, pattern="{} % {}", symbol=np.mod),
     "pow": Operator("pow", _arrays(op.pow, np.float_power), np.float_power, pattern="{} ** {}", symbol=np.power),
     "neg": Operator("neg", op.neg, np.negative, pattern="-{}", symbol=np.negative),

@@ -113,5 +113,3 @@ def _operated(x: Operation[Any]) -> Line | None:
     if symbol is np.true_divide and not b.slope and b.offset:
         return Line(lo, hi, at, a.error / abs(b.offset) * 2, a.slope / b.offset, a.offset / b.offset)
     return None
-
-

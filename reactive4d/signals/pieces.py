@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from reactive4d.arrays import same
-from reactive4d.engine import asks, moment, narrow
+from reactive4d.engine import moment, narrow
+from reactive4d.engine.kinds import COMPUTED, FORMULA
 from reactive4d.signals.algebra import Operation
 from reactive4d.signals.kernels import Operator
 from reactive4d.signals.lines import Line, could_be_line, line
@@ -30,7 +31,7 @@ class Stepping(Operation[Any]):
     __slots__ = ("kind",)
 
     def __init__(self, operator: Operator, operands: tuple[Any, ...]) -> None:
-        self.kind = asks.COMPUTED if _is_steady(operands) else asks.FORMULA
+        self.kind = COMPUTED if _is_steady(operands) else FORMULA
         super().__init__(operator, operands)
 
     def rule(self) -> Any:

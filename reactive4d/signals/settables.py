@@ -2,13 +2,15 @@
 
 from typing import Any, TypeVar
 
-from reactive4d.engine import Engine, Source, asks
+from reactive4d.engine import Engine, Source
 from reactive4d.engine.frames import NEVER
+from reactive4d.engine.kinds import COMPUTED, FORMULA, SOURCE
 from reactive4d.signals.signal import Signal
 
 __all__ = ["Contents", "Settable"]
 
 T = TypeVar("T")
+INF = float("inf")
 
 
 class Contents(Source):
@@ -20,7 +22,7 @@ class Contents(Source):
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """Nothing: only the stamps count."""
-        return -asks.INF, asks.INF, None
+        return -INF, INF, None
 
     def sample_many(self, ts: Any) -> Any:
         """Nothing, as often."""
@@ -36,14 +38,14 @@ class Settable(Signal[T], Source):
     __slots__ = ("inputs", "kind", "own")
 
     def __init__(self, content: Any, *, name: str | None = None, engine: Engine | None = None) -> None:
-        self.kind = asks.SOURCE
+        self.kind = SOURCE
         self.inputs: tuple[Any, ...] = ()
         self.own: Contents | None = None
         super().__init__(content, name=name, engine=engine)
         self.adopt()
 
     def _be_source(self) -> None:
-        self.kind = asks.SOURCE
+        self.kind = SOURCE
         self.inputs = ()
         if self.own is not None:
             self.own.stamps = self.stamps
@@ -60,12 +62,10 @@ class Settable(Signal[T], Source):
     def _be_formula(self, *inputs: Any) -> None:
         """Answer with `function(None, *values)` of these signals."""
         self.inputs = (self._contents(), *inputs)
-        self.kind = asks.FORMULA
+        self.kind = FORMULA
 
     def _be_computed(self) -> None:
         """Answer with `rule()`, which notes `self.own` before it reads others."""
         self._contents()
         self.inputs = ()
-        self.kind = asks.COMPUTED
-
-
+        self.kind = COMPUTED

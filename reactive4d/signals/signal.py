@@ -262,7 +262,9 @@ class Signal(Cell, Generic[T_co]):
 
     def __bool__(self) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it is not true or false, but at some time")
-        raise hint(error, "where(condition, yes, no) chooses; signal.at(t) is a value; a & b, a | b, ~a are and, or, not")
+        raise hint(
+            error, "where(condition, yes, no) chooses; signal.at(t) is a value; a & b, a | b, ~a are and, or, not"
+        )
 
     def __iter__(self) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it has no components before it is asked")

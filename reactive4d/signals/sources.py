@@ -116,7 +116,9 @@ def _constant(value: Any, name: str) -> Any:
 
 
 def _is_numeric(value: tuple[Any, ...]) -> bool:
-    return bool(value) and all(isinstance(x, int | float | np.number) or (type(x) is tuple and _is_numeric(x)) for x in value)
+    return bool(value) and all(
+        isinstance(x, int | float | np.number) or (type(x) is tuple and _is_numeric(x)) for x in value
+    )
 
 
 def refuse_reading_itself(target: Signal[Any], content: Signal[Any]) -> None:
@@ -127,7 +129,9 @@ def refuse_reading_itself(target: Signal[Any], content: Signal[Any]) -> None:
         cell = todo.pop()
         if cell is target:
             error = Reactive4dError(f"{target.name} would read itself")
-            raise hint(error, f"use what was assigned before: {target.name}.source; or its past: {target.name}.delay(0.1)")
+            raise hint(
+                error, f"use what was assigned before: {target.name}.source; or its past: {target.name}.delay(0.1)"
+            )
         if id(cell) in seen or type(cell) is tuple:
             continue
         seen.add(id(cell))
@@ -187,7 +191,9 @@ class Parameter(Signal[T], Axis):
             plain = float(plain) + 0.0  # -0.0 becomes 0.0: equal values are one value
             if plain != plain:
                 raise ParameterError(f"{self.name}: nan is not a value")
-        elif kind is int and given in (int, bool, float) and plain == plain and abs(plain) != INF and plain == int(plain):
+        elif (
+            kind is int and given in (int, bool, float) and plain == plain and abs(plain) != INF and plain == int(plain)
+        ):
             plain = int(plain)
         elif kind is bool and plain in (0, 1):
             plain = bool(plain)
@@ -197,7 +203,9 @@ class Parameter(Signal[T], Axis):
         elif given is not kind:
             error = ParameterError(f"{self.name}: expected {_described(self.default)}, got {value!r}")
             if kind is int and given is float:
-                raise hint(error, f"its default is {self.default!r}; a default of {float(self.default)!r} takes any number")
+                raise hint(
+                    error, f"its default is {self.default!r}; a default of {float(self.default)!r} takes any number"
+                )
             raise error
         if self.bounds is not None:
             lowest, highest = self.bounds
