@@ -62,11 +62,11 @@ def unfold(span: tuple[float, float], t: float, first: float, last: float, *, mi
 
     slack = 2.0 * math.ulp(max(abs(t), abs(first), abs(last)))
     start, stop = t, math.nextafter(t, INF)
-    for give in (1.0, 4.0):
+    for give in (0.0, 1.0, 4.0):
         if inside(t - before + give * slack) and t - before + give * slack <= t:
             start = t - before + give * slack
             break
-    for give in (1.0, 4.0):
+    for give in (0.0, 1.0, 4.0):
         end = t + after - give * slack
         if end > t and inside(math.nextafter(end, -INF)):
             stop = end
