@@ -1,6 +1,7 @@
 """Small test doubles for the engine: sources with keys, a clock, and readers of its log."""
 
 import math
+import threading
 from bisect import bisect_right
 from collections.abc import Callable
 from typing import Any
@@ -10,9 +11,11 @@ from reactive4d.engine import Cell, Computed, Engine, Event, Formula, Source
 
 __all__ = [
     "INF",
+    "Background",
     "Case",
     "Clock",
     "Counted",
+    "Gate",
     "LinearSource",
     "StepSource",
     "answer",
@@ -238,3 +241,66 @@ class Case:
             self.engine.check(self.counters)
         else:
             assert all(ran.get(name, 0) >= count for name, count in counts.items())
+
+
+PATIENCE = 60.0  # seconds after which a thread is taken to wait for ever
+
+
+class Background:
+    """Something that runs on a thread of its own."""
+
+    def __init__(self, work: Callable[[], Any]) -> None:
+        self.work = work
+        self.value: Any = None
+        self.error: BaseException | None = None
+        self.thread = threading.Thread(target=self._run, daemon=True)
+        self.thread.start()
+
+    def _run(self) -> None:
+        try:
+            self.value = self.work()
+        except BaseException as error:  # noqa: BLE001  raised again by `result`
+            self.error = error
+
+    @property
+    def done(self) -> bool:
+        """Whether it has ended."""
+        return not self.thread.is_alive()
+
+    def result(self) -> Any:
+        """What came of it; fails if it does not end."""
+        self.thread.join(PATIENCE)
+        assert self.done, "a thread waits for ever"
+        if self.error is not None:
+            raise self.error
+        return self.value
+
+    def wait_until(self, condition: Callable[[], Any]) -> None:
+        """Wait for a condition that this thread, still at work, will bring about."""
+        for _ in range(int(PATIENCE * 1000)):
+            if condition():
+                return
+            assert not self.done, f"ended before: {self.error or self.value!r}"
+            self.thread.join(0.001)
+        raise AssertionError("the condition never came")
+
+
+class Gate:
+    """A place in a rule where a thread stops until it is let through."""
+
+    def __init__(self) -> None:
+        self.reached = threading.Event()
+        self.opened = threading.Event()
+
+    def pass_through(self) -> None:
+        """Say that one is here, and wait."""
+        self.reached.set()
+        assert self.opened.wait(PATIENCE), "the gate was never opened"
+
+    def wait(self) -> None:
+        """Wait until somebody stands at the gate."""
+        assert self.reached.wait(PATIENCE), "nobody came to the gate"
+
+    def open(self) -> None:
+        """Let everybody through, now and later."""
+        self.opened.set()
