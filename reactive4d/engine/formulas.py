@@ -3,7 +3,7 @@
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.answers import add_axes, publish, renew, stand, store, table_for
+from reactive4d.engine.answers import add_axes, stand, store, table_for
 from reactive4d.engine.failures import Failure, failure
 from reactive4d.engine.frames import LOCK, Claim
 from reactive4d.engine.peeks import peek, unmoved
@@ -111,21 +111,5 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
     cell.runs = runs + 1
     if epoch != engine.epoch and not unmoved(engine, t, point, reads, these):
         return True
-    if (
-        table is cell
-        and segment is not None
-        and len(segments) == 1
-        and segments[0] is segment
-        and not segment.clean
-        and lo <= segment.lo
-        and segment.hi <= hi
-        and cell.linked is inputs
-        and not logs
-    ):
-        # What `store` would do, for the commonest of cases.
-        engine.clock += 1
-        renew(engine, segment, value, inputs, these)
-        publish(engine, cell, segment, None, None)
-        return None
     store(engine, cell, table, t, lo, hi, point, value, reads, these)
     return None

@@ -104,7 +104,7 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                 if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
                     raise CycleFound(_path(me, wanted, t))
                 stack.append(wanted)
-                fresh = wanted
+                fresh = _descend(wanted, t, claim, stack)
             else:
                 claim.restarts += 1
                 if claim.restarts > PATIENCE and not claim.patient:
@@ -123,6 +123,27 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
             if other.patient:
                 engine.patience -= 1
                 CHANGED.notify_all()
+
+
+def _descend(cell: "Cell", t: float, claim: Claim, stack: "list[Any]") -> "Cell":
+    """Go down a chain at once: where the first thing that was read is to be checked too, that comes first."""
+    while cell.kind >= FORMULA and cell.busy is None and cell.shelves is None:
+        segments = cell.segments
+        if len(segments) != 1:
+            break
+        segment = segments[0]
+        if segment.clean or not segment.reads or not segment.lo <= t < segment.hi:
+            break
+        first = segment.reads[0]
+        if type(first) is tuple or first.kind < FORMULA or first.busy is not None or first.shelves is not None:
+            break
+        below = first.segments
+        if len(below) != 1 or below[0].clean:
+            break
+        cell.busy = claim
+        stack.append(first)
+        cell = first
+    return cell
 
 
 def _occupied(engine: "Engine", cell: "Cell", claim: Claim) -> bool:
