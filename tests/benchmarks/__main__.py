@@ -11,6 +11,7 @@ from .asking import asking
 from .editing import editing
 from .graph_speed import graph_speed
 from .growth import growth
+from .instructions import instructions
 from .memory import memory
 from .reports import Section, conditions, data, markdown, text, verdicts
 from .runs import Run
@@ -21,6 +22,7 @@ BENCHMARKS = {
     "asking": asking,
     "graphs": graph_speed,
     "growth": growth,
+    "instructions": instructions,
     "scene": held_scene,
     "editing": editing,
     "memory": memory,

@@ -11,6 +11,7 @@ from .contenders import contenders
 from .editing import Curves
 from .graph_speed import deep_recursion
 from .graphs import GRAPHS, Graph, ladder
+from .instructions import traced
 from .libraries import Library, Plan
 from .ours import Declared, Opaque, new_engine
 from .reports import Section, Target, markdown, text, verdicts
@@ -203,6 +204,20 @@ def test_a_track_differs_where_its_keys_do():
     assert track.difference(old, with_value(old, 3, 7.0)) == [(2.0, float("inf"))]
     assert track.difference(old, ((0.0, 1.0, 1.5, 2.0, 3.0), (0.0, 5.0, 9.0, 5.0, 1.0))) == [(1.0, 2.0)]
     assert track.sample(1.5) == (1.0, 2.0, 5.0)
+
+
+def test_instructions_are_counted():
+    """The count is the same every time, grows with the work, and names the functions."""
+
+    def work(times: int) -> None:
+        for _ in range(times):
+            named(LADDER)
+
+    few, calls = traced(lambda: work(1))
+    assert traced(lambda: work(1))[0].total() == few.total()
+    more, more_calls = traced(lambda: work(3))
+    assert more.total() > few.total()
+    assert (calls["test_workloads.py:named"], more_calls["test_workloads.py:named"]) == (1, 3)
 
 
 def test_every_contender_has_its_turn():
