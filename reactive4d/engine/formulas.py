@@ -109,7 +109,10 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
     finally:
         acquire()
     cell.runs = runs + 1
-    if epoch != engine.epoch and not unmoved(engine, t, point, reads, these):
-        return True
+    if epoch != engine.epoch:
+        span = unmoved(engine, t, point, reads, these)
+        if span is None:
+            return True
+        lo, hi = max(lo, span[0]), min(hi, span[1])
     store(engine, cell, table, t, lo, hi, point, value, reads, these)
     return None

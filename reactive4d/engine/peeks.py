@@ -60,18 +60,27 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
     return None
 
 
-def unmoved(engine: "Engine", t: float, point: "Point | None", reads: tuple[Any, ...], stamps: tuple[int, ...]) -> bool:
-    """Whether everything that was read is still clean and as it was."""
+def unmoved(
+    engine: "Engine", t: float, point: "Point | None", reads: tuple[Any, ...], stamps: tuple[int, ...]
+) -> tuple[float, float] | None:
+    """Where, round `t`, everything that was read is clean and as it was; None if something is not."""
+    lo, hi = -INF, INF
     for entry, stamp in zip(reads, stamps, strict=True):
         cell, at, there = engine.elsewhere(entry, t, point) if type(entry) is tuple else (entry, t, point)
         hit = peek(engine, cell, at, there)
         if hit is None or hit[3] != stamp:
-            return False
-    return True
+            return None
+        if type(entry) is tuple:
+            hit = engine.brought_back(entry, hit, at, t)
+        lo, hi = max(lo, hit[0]), min(hi, hit[1])
+    return lo, hi
 
 
 def recheck(engine: "Engine", task: Task) -> None:
     """Start again if an edit has touched what this evaluation has read; otherwise go on, as of now."""
-    if not unmoved(engine, task.t, task.point, tuple(task.deps), tuple(task.deps.values())):
+    span = unmoved(engine, task.t, task.point, tuple(task.deps), tuple(task.deps.values()))
+    if span is None:
         raise Cancelled
+    # What was read may hold over less by now, though it is the same here.
+    task.lo, task.hi = max(task.lo, span[0]), min(task.hi, span[1])
     task.epoch = engine.epoch
