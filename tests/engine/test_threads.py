@@ -497,3 +497,39 @@ def test_cells_may_be_made_and_dropped_on_any_thread(cached: Case) -> None:
 
     threads = [*(Background(come_and_go) for _ in range(4)), Background(edit)]
     assert all(thread.result() for thread in threads)
+
+
+@pytest.mark.parametrize("kind", ["formula", "rule", "mapped"])
+def test_an_edit_nearby_shrinks_the_answer_under_evaluation(cached: Case, kind: str) -> None:
+    """
+    While x is evaluated at 1 s, a key is put at 2 s: the answer stands, but only up to there.
+
+        s --> x --> view
+    """
+    s = cached.steps({0.0: 1.0})
+    gate = Gate()
+    x: Any
+    if kind == "rule":
+
+        def rule() -> float:
+            value = s.now()
+            gate.pass_through()
+            return value
+
+        x = cached.rule("x", rule)
+    else:
+
+        def function(value: float) -> float:
+            gate.pass_through()
+            return value
+
+        x = cached.formula("x", function, s, maps=(Affine(1.0, 0.0) if kind == "mapped" else None,))
+    view = cached.formula("view", lambda v: v, x)
+    other = Background(lambda: cached.ask(view, 1.0))
+    gate.wait()
+    s.put(2.0, 5.0)
+    gate.open()
+    assert other.result() == 1.0
+    cached.engine.check([view])
+    assert cached.ask(view, 3.0) == 5.0
+    assert cached.ask(view, 1.0) == 1.0
