@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import checks, edits, evictions, explanations, graphs, naive
-from reactive4d.engine.events import Event
+from reactive4d.engine.events import Log
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import CHANGED, LOCK, CycleFound, Hit, Me, here
 from reactive4d.engine.hits import listen, watch
@@ -63,6 +63,8 @@ class Engine:
         self.same = same
         self.measure = measure
         self.freeze = freeze
+        self.logs: list[Log] = []
+        self.hear: Callable[[Any], None] = self._tell_all
         self.stamp: Callable[[], int] = itertools.count(1).__next__
         self.epoch = 0  # edits so far
         self.clock = 0  # answers stored so far
@@ -71,7 +73,6 @@ class Engine:
         self.undo: list[Any] = []
         self.waiting = 0  # threads that wait for anything
         self.patience = 0  # evaluations that edits wait for
-        self.logs: list[list[Event]] = []
         self.axes: dict[str, Any] = {}
         self.points: dict[Any, Point] = {}
         self.bytes = 0  # at least what the remembered answers take; counted anew before anything is evicted
@@ -231,26 +232,33 @@ class Engine:
 
     def emit(self, kind: str, cell: "Cell", lo: float, hi: float) -> None:
         """Tell the open logs what was done."""
-        event = Event(kind, cell.name, lo, hi)
-        if kind == "reused":
-            cell.hits += 1
+        self.hear((kind, cell, lo, hi))
+
+    def _tell_all(self, note: Any) -> None:
         for log in self.logs:
-            log.append(event)
+            log.notes.append(note)
 
     @contextmanager
-    def log(self) -> Generator[list[Event]]:
-        """The events of the block, as a list that grows while it runs. Hits are counted only while a log is open."""
-        events: list[Event] = []
+    def log(self) -> Generator[Log]:
+        """The events of the block, as a sequence that grows while it runs. Hits are counted only while a log is open."""
+        log = Log()
         with LOCK:
-            self.logs.append(events)
+            self._listen([*self.logs, log])
             listen(1)
         try:
-            yield events
+            yield log
         finally:
             with LOCK:
-                # By identity: two logs may hold equal events.
-                self.logs = [log for log in self.logs if log is not events]
+                self._listen([other for other in self.logs if other is not log])
                 listen(-1)
+
+    def _listen(self, logs: list[Log]) -> None:
+        for log in self.logs[:1]:
+            log.count_hits()  # the one that was opened first counts for all
+        if logs and logs[:1] != self.logs[:1]:
+            logs[0].counted = len(logs[0].notes)
+        self.logs = logs
+        self.hear = logs[0].notes.append if len(logs) == 1 else self._tell_all
 
     def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:
         """What was computed and what reused to answer at a point, and why, as an indented text."""
@@ -262,6 +270,8 @@ class Engine:
 
     def stats(self, cells: "Iterable[Cell] | None" = None) -> dict[str, Any]:
         """Bytes, budget, evictions; and for each cell its evaluations, seconds, answers, bytes and (if logged) hits."""
+        for log in self.logs[:1]:
+            log.count_hits()
         return evictions.stats(self, cells)
 
     def check(self, cells: "Iterable[Cell]") -> None:

@@ -1,8 +1,12 @@
 """What the engine did, in the order in which it did it, for tests to read and viewers to draw."""
 
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, overload
 
-__all__ = ["Event"]
+if TYPE_CHECKING:
+    from reactive4d.engine.cells import Cell
+
+__all__ = ["Event", "Log"]
 
 
 class Event(NamedTuple):
@@ -20,3 +24,62 @@ class Event(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.kind} {self.name} [{self.lo:g}, {self.hi:g})"
+
+
+# What is noted while a log is open; it becomes an event when somebody reads it.
+Note = tuple[str, "Cell", float, float]
+
+
+class Log(Sequence[Event]):
+    """The events since the log was opened, as a sequence that grows while it is open.
+
+    It keeps the cells that it tells of, so close it and let it go.
+    """
+
+    __slots__ = ("counted", "notes")
+
+    def __init__(self) -> None:
+        self.notes: list[Note] = []
+        self.counted = 0
+
+    def clear(self) -> None:
+        """Forget the events so far."""
+        self.count_hits()
+        self.notes.clear()
+        self.counted = 0
+
+    def count_hits(self) -> None:
+        """Add the hits since the last count to those of their cells."""
+        for kind, cell, _, _ in self.notes[self.counted :]:
+            if kind == "reused":
+                cell.hits += 1
+        self.counted = len(self.notes)
+
+    def __len__(self) -> int:
+        return len(self.notes)
+
+    @overload
+    def __getitem__(self, index: int) -> Event: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Event]: ...
+    def __getitem__(self, index: int | slice) -> Event | list[Event]:
+        if isinstance(index, slice):
+            return [_event(note) for note in self.notes[index]]
+        return _event(self.notes[index])
+
+    def __iter__(self) -> Iterator[Event]:
+        return map(_event, self.notes)
+
+    def __eq__(self, other: object) -> bool:
+        return list(self) == other if isinstance(other, list) else self is other
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return repr([str(event) for event in self])
+
+
+def _event(note: Note) -> Event:
+    kind, cell, lo, hi = note
+    return Event(kind, cell.name, lo, hi)
+

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.events import Event
 from reactive4d.engine.frames import here
 from reactive4d.engine.segments import Table
 
@@ -77,20 +76,15 @@ class Hits(Table):
             if not _attended:
                 return value
             if not _evaluating or here.me.frame is None:
-                return self._logged(lo, hi, value) if _logging else value
+                if _logging:
+                    self.engine.hear(("reused", self, lo, hi))
+                return value
         elif parameters:
             lo, hi, value, given = self.warm
             if t.__class__ is float and lo <= t < hi and not _logging and _alike(parameters, given):
                 if not _evaluating or here.me.frame is None:
                     return value
         return self._asked(t, parameters)
-
-    def _logged(self, lo: float, hi: float, value: Any) -> Any:
-        """Hand out an answer, and tell the open logs of it."""
-        self.hits += 1
-        for log in self.engine.logs:
-            log.append(Event("reused", self.name, lo, hi))  # type: ignore[attr-defined]
-        return value
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         raise NotImplementedError

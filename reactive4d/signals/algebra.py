@@ -14,7 +14,7 @@ from reactive4d.engine import Formula, sealed
 from reactive4d.errors import ShapeError, hint
 from reactive4d.signals import kernels
 from reactive4d.signals.kernels import Operator
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operate", "vec"]
 

@@ -21,7 +21,7 @@ from reactive4d.engine.points import Point
 from reactive4d.engine.shelves import Shelves
 from reactive4d.errors import TimeError
 from reactive4d.signals.settables import Settable
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["batch"]
 

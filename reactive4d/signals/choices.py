@@ -6,7 +6,7 @@ import numpy as np
 
 from reactive4d.errors import ShapeError
 from reactive4d.signals.algebra import operand
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Choice", "where"]
 

@@ -7,7 +7,7 @@ from typing import Any, TypeVar, overload
 
 from reactive4d.engine import Computed
 from reactive4d.engine.frames import here
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Function", "signal"]
 

@@ -57,7 +57,7 @@ class Operator:
 
     def bound(self, operands: tuple[Any, ...]) -> Callable[..., Any]:
         """The function of the signals among the operands."""
-        from reactive4d.signals.signal import Signal
+        from reactive4d.signals.facade import Signal
 
         one = self.one
         live = [isinstance(x, Signal) for x in operands]

@@ -25,7 +25,7 @@ from reactive4d.signals.easings import Ease, Easing
 from reactive4d.signals.lines import Line
 from reactive4d.signals.rotations import Rotation, slerp
 from reactive4d.signals.settables import Settable
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Keys", "Points", "keys"]
 

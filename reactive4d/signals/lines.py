@@ -12,7 +12,7 @@ import numpy as np
 
 from reactive4d.engine import moment
 from reactive4d.signals.algebra import Operation
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 from reactive4d.signals.sources import Time
 
 __all__ = ["Line", "could_be_line", "line"]

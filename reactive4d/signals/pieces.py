@@ -17,7 +17,7 @@ from reactive4d.engine.kinds import COMPUTED, FORMULA
 from reactive4d.signals.algebra import Operation
 from reactive4d.signals.kernels import Operator
 from reactive4d.signals.lines import Line, could_be_line, line
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Stepping"]
 

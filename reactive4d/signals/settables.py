@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 from reactive4d.engine import Engine, Source
 from reactive4d.engine.frames import NEVER
 from reactive4d.engine.kinds import COMPUTED, FORMULA, SOURCE
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Contents", "Settable"]
 

@@ -9,7 +9,7 @@ from reactive4d.arrays import freeze
 from reactive4d.engine import Axis, Engine, Source
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.signals.settables import Settable
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = ["Parameter", "Time", "Variable", "time"]
 

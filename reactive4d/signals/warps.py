@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from reactive4d.engine import Affine, Formula, TimeMap
 from reactive4d.errors import TimeError, hint
 from reactive4d.signals.maps import Creep, Discrete, Hold, Repeat, SlowInOut, forward_each
-from reactive4d.signals.signal import Signal
+from reactive4d.signals.facade import Signal
 
 __all__ = [
     "Follow",
@@ -62,6 +62,11 @@ class Follow(Signal[T]):
         self.original = original
         self.make = make
         self.parameters = parameters
+
+    @property
+    def kind_of_map(self) -> str:
+        """Which warp it is: "warp", "delay", "stretch" …"""
+        return "warp" if self.make is _itself else getattr(self.make, "__name__", "").strip("_")
 
     def rule(self) -> Any:
         """First the parameters, as they are now; then the signal, through the map that they make."""
