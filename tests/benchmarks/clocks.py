@@ -1,11 +1,14 @@
-"""Timing by turns: every contender runs a little, again and again, so that a busy machine disturbs all alike."""
+"""Timing by turns: every contender runs a little, again and again, so that a busy machine disturbs all alike.
+
+It is the processor's time of this process that counts: what others do on the machine meanwhile is not in it.
+"""
 
 import gc
 import statistics
 import timeit
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from time import perf_counter
+from time import process_time
 
 __all__ = ["UNROLLED", "Timing", "alternate", "empty_call", "per_call", "stopwatch"]
 
@@ -14,7 +17,7 @@ UNROLLED = 50  # So often a statement is written out, so that no loop is counted
 
 @dataclass(frozen=True)
 class Timing:
-    """Seconds for one repetition: the median of the rounds and the least of them."""
+    """Seconds of processor for one repetition: the median of the rounds and the least of them."""
 
     median: float
     least: float
@@ -51,19 +54,19 @@ def alternate(
             for name in names:
                 gc.collect()
                 run, count = runs[name], repetitions[name]
-                start = perf_counter()
+                start = process_time()
                 run(count)
-                taken[name].append((perf_counter() - start) / count)
+                taken[name].append((process_time() - start) / count)
     finally:
         gc.unfreeze()
     return {name: Timing(statistics.median(all_), min(all_), repetitions[name]) for name, all_ in taken.items()}
 
 
 def stopwatch(function: Callable[[], object]) -> float:
-    """Seconds that one call takes."""
-    start = perf_counter()
+    """Seconds of processor that one call takes."""
+    start = process_time()
     function()
-    return perf_counter() - start
+    return process_time() - start
 
 
 def per_call(statement: str, names: Mapping[str, object]) -> Callable[[int], object]:

@@ -1,9 +1,6 @@
 """How thoroughly to measure, and what."""
 
 from dataclasses import dataclass
-from functools import cache
-
-from .clocks import UNROLLED, alternate, empty_call
 
 __all__ = ["Run"]
 
@@ -28,13 +25,3 @@ class Run:
         """Whether a graph of this name is to be run."""
         section, _, part = self.only.partition(":")
         return section != "graphs" or part in name
-
-    def empty(self) -> float:
-        """Seconds that an empty method call takes now."""
-        return _empty(self.rounds)
-
-
-@cache
-def _empty(rounds: int) -> float:
-    timing = alternate({"empty": empty_call()}, rounds=2 * rounds, seconds=0.02)["empty"]
-    return timing.median / UNROLLED

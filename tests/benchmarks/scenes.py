@@ -4,7 +4,7 @@ import gc
 import random
 import tracemalloc
 from collections.abc import Iterable
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -96,9 +96,9 @@ class Scene:
         self.cells += [moved, outlined, boxed, coloured, self.nodes[-1]]
 
     def _busy(self, number: int, rule: str) -> None:
-        end = perf_counter() + self.work
+        end = process_time() + self.work
         self.evaluated.append((number, rule, self.frame))
-        while perf_counter() < end:
+        while process_time() < end:
             pass
 
     def show(self, frames: Iterable[int]) -> Any:
