@@ -2,6 +2,7 @@
 
 import sys
 
+from reactive4d import process as _process
 from reactive4d.engine.events import Event
 from reactive4d.engine.graphs import Graph
 from reactive4d.errors import (
@@ -15,7 +16,7 @@ from reactive4d.errors import (
     UnknownNameError,
 )
 from reactive4d.intervals import FOREVER, Interval, IntervalSet
-from reactive4d.process import Budgeted, explain, graph, log, stats, transaction
+from reactive4d.process import explain, graph, log, stats, transaction
 from reactive4d.signals.algebra import equal, lift, vec
 from reactive4d.signals.choices import where
 from reactive4d.signals.colors import color
@@ -62,4 +63,4 @@ __all__ = [
 ]
 
 budget: int
-sys.modules[__name__].__class__ = Budgeted
+sys.modules[__name__].__class__ = _process.Budgeted

@@ -7,7 +7,6 @@ read     from inside of a rule, which runs without the lock
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from reactive4d.engine.failures import Failure
 from reactive4d.engine.frames import DEPTH, LOCK, CycleFound, Hit, Suspended, Task, here
 from reactive4d.engine.hits import watch
 from reactive4d.engine.peeks import peek, recheck
@@ -22,25 +21,19 @@ __all__ = ["ask", "read"]
 
 
 def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
-    """Bring a cell up to date from outside of any evaluation; the hit may hold a `Failure`."""
+    """Bring a cell up to date from outside of any evaluation, the lock held; the hit may hold a `Failure`."""
     engine = cell.engine
-    with LOCK:
-        watch(1)
-        try:
-            hit = bring(engine, cell, t, point, here.me)
-            if point is None and engine.owner is None and type(hit[2]) is not Failure:
-                cell.hot = hit[:3]
-        except CycleFound as found:
-            raise cycle_error(found.path) from None
-        except RecursionError:
-            error = DepthError(f"{cell.name}: the interpreter's stack is full")
-            raise hint(
-                error, "ask from a shallower place; algebra and lift(f) need no stack, opaque rules do"
-            ) from None
-        finally:
-            if not watch(-1) and (engine.bytes > engine.limit or engine.unpaid):
-                engine.trim()
-    return hit
+    watch(1)
+    try:
+        return bring(engine, cell, t, point, here.me)
+    except CycleFound as found:
+        raise cycle_error(found.path) from None
+    except RecursionError:
+        error = DepthError(f"{cell.name}: the interpreter's stack is full")
+        raise hint(error, "ask from a shallower place; algebra and lift(f) need no stack, opaque rules do") from None
+    finally:
+        if not watch(-1) and (engine.bytes > engine.limit or engine.unpaid):
+            engine.trim()
 
 
 def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:

@@ -18,7 +18,7 @@ from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, Hit, 
 from reactive4d.engine.hits import COLD, COOL, Hits
 from reactive4d.engine.kinds import AXIS, COMPUTED, FORMULA, SOURCE
 from reactive4d.engine.maps import Fixed, TimeMap
-from reactive4d.engine.peeks import recheck
+from reactive4d.engine.peeks import peek, recheck
 from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.stamps import Stamps, piece
 from reactive4d.engine.walks import wait_for_transaction
@@ -98,15 +98,9 @@ class Cell(Hits):
             if self._is_batch(t):
                 return self._batch(t, parameters)
             t = as_time(t, self)
-        lo, hi, value, _, point, axes = self._hit_at(t, parameters)
+        value = self._hit_at(t, parameters)[2]
         if type(value) is Failure:
             raise raised(value)
-        if parameters:
-            with LOCK:
-                # Handed out without a search from now on, unless it was edited or became another point's meanwhile.
-                hit = self.hit
-                if hit[0] == lo and hit[1] == hi and hit[2] is value and (axes is None or hit[4] is point):
-                    self.warm = (lo, hi, value, parameters)
         return value
 
     def _is_batch(self, t: Any) -> bool:
@@ -119,16 +113,28 @@ class Cell(Hits):
         """The hit at a point, from outside of any evaluation."""
         engine = self.engine
         point = engine.point(parameters) if parameters else None
-        hit = self.hit
-        if hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is point):
-            if engine.logs:
-                engine.emit("reused", self, hit[0], hit[1])
-            return hit
         if t != t:
             raise TimeError(f"{self.name} asked at t = nan")
-        if t == INF:
-            return self._hit_at(sys.float_info.max, parameters)  # with which it shares its instant
-        return asks.ask(self, t + 0.0, point)  # -0.0 is the same instant as 0.0
+        # `inf` shares its instant with the largest float, and -0.0 with 0.0.
+        t = t + 0.0 if t < INF else sys.float_info.max
+        with LOCK:
+            if engine.owner is None or engine.owner is here.me:
+                hit = peek(engine, self, t, point)
+            else:
+                # What was handed out before another thread's transaction began, and is not touched by it, still holds.
+                hit = self.hit
+                hit = hit if hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is point) else None
+            if hit is None:
+                hit = asks.ask(self, t, point)
+            elif engine.logs:
+                engine.emit("reused", self, hit[0], hit[1])
+            if engine.owner is None and type(hit[2]) is not Failure:
+                # Handed out without the lock and without a search from now on.
+                if point is None:
+                    self.hot = hit[:3]
+                else:
+                    self.warm = (*hit[:3], parameters)
+        return hit
 
     def valid(self, t: float, **parameters: Any) -> Interval:
         """An interval round `t` over which the answer holds: sound, but not always the largest."""

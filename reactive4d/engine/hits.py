@@ -1,7 +1,9 @@
 """Handing out what is remembered, without a lock and without a search: the way of most asks."""
 
+from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
 
+from reactive4d.engine.failures import Failure
 from reactive4d.engine.frames import here
 from reactive4d.engine.segments import Table
 
@@ -81,9 +83,29 @@ class Hits(Table):
                 return value
         elif parameters:
             lo, hi, value, given = self.warm
-            if t.__class__ is float and lo <= t < hi and not _logging and _alike(parameters, given):
+            if t.__class__ is float and lo <= t < hi and not _logging and _alike(parameters, given):  # noqa: SIM102
                 if not _evaluating or here.me.frame is None:
                     return value
+        elif not _attended:
+            if t.__class__ is int:
+                t = float(t)
+                if lo <= t < hi:
+                    return value
+            if t.__class__ is float and self.segments:
+                # Looked up without the lock. What could make the answer false meanwhile, an edit or a transaction on
+                # another thread, shows in `epoch` or `owner`.
+                engine = self.engine
+                epoch = engine.epoch
+                i = bisect_right(self.starts, t) - 1
+                try:
+                    segment = self.segments[i]
+                except IndexError:  # changed by another thread between the two
+                    return self._asked(t, parameters)
+                if segment.clean and segment.lo <= t < segment.hi:
+                    value = segment.value
+                    segment.touched = engine.clock
+                    if engine.owner is None and engine.epoch == epoch and value.__class__ is not Failure:
+                        return value
         return self._asked(t, parameters)
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:

@@ -29,12 +29,7 @@ PATIENCE = 3  # restarts after which edits wait
 
 
 def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | None", me: Me) -> Hit:
-    """Bring one cell up to date at one point, and with it whatever it needs."""
-    hit = peek(engine, root, root_t, root_point) if engine.owner is None or engine.owner is me else None
-    if hit is not None:
-        if engine.logs:
-            engine.emit("reused", root, hit[0], hit[1])
-        return hit
+    """Bring one cell that has no clean answer up to date at one point, and with it whatever it needs."""
     t, point = root_t, root_point
     claim = Claim(t, point, me)
     claims = [claim]

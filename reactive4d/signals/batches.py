@@ -190,7 +190,7 @@ def _one_by_one(cell: Any, ts: Any, point: Point | None, walk: _Walk) -> Any:
     for i in np.argsort(ts, kind="stable").tolist():
         t = float(ts[i])
         if not lo <= t < hi:
-            hit = asks.ask(cell, t, point)
+            hit = cell._hit_at(t, point.given if point is not None else {})
             lo, hi, value = hit[0], hit[1], hit[2]
             if hit[5] is not None:
                 walk.axes.update(dict.fromkeys(hit[5]))

@@ -66,7 +66,7 @@ def where(condition: Any, yes: Any, no: Any) -> Signal[Any]:
     >>> import reactive4d as r4
     >>> step = where(r4.time < 3, 1.0, 2.0)
     >>> step.at(0.0), step.at(3.0), step.valid(0.0)
-    (1.0, 2.0, [-inf, 3))
+    (1.0, 2.0, (-inf, 3))
     """
     if not isinstance(condition, Signal):
         raise TypeError(f"where: expected a signal as condition, got {condition!r}")
