@@ -210,9 +210,15 @@ class Cell(Hits):
         return hit[2]
 
     def __repr__(self) -> str:
-        state = (
-            "never asked" if not self.segments else "up to date" if all(s.clean for s in self.segments) else "to check"
-        )
+        tables: list[Any] = [self]
+        if self.shelves is not None:
+            tables.extend(table for shelf in self.shelves.shelves for table in list(shelf.tables.values()))
+        clean = [
+            segment.clean and (table is self or table.seen == self.shelves.count)
+            for table in tables
+            for segment in list(table.segments)
+        ]
+        state = "never asked" if not clean else "up to date" if all(clean) else "to check"
         return f"<{type(self).__name__} {self.name}: {state}>"
 
 

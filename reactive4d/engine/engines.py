@@ -266,13 +266,15 @@ class Engine:
 
     def graph(self, cells: "Iterable[Cell]") -> graphs.Graph:
         """The cells and everything that they read, as data, text and DOT."""
-        return graphs.graph(cells)
+        with LOCK:
+            return graphs.graph(cells)
 
     def stats(self, cells: "Iterable[Cell] | None" = None) -> dict[str, Any]:
         """Bytes, budget, evictions; and for each cell its evaluations, seconds, answers, bytes and (if logged) hits."""
         for log in self.logs[:1]:
             log.count_hits()
-        return evictions.stats(self, cells)
+        with LOCK:
+            return evictions.stats(self, cells)
 
     def check(self, cells: "Iterable[Cell]") -> None:
         """Verify the invariants for cells and everything they read; raises AssertionError."""

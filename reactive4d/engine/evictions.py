@@ -55,11 +55,13 @@ def enlist(engine: "Engine", cell: "Cell") -> None:
 
 
 def tables(cell: "Cell") -> list[Table]:
-    """All tables of a cell: of the answers that read no parameter, and of those that did."""
+    """All tables of a cell, with all marks applied; the lock is held."""
     tables: list[Table] = [cell]
     if cell.shelves is not None:
         for shelf in cell.shelves.shelves:
-            tables.extend(shelf.tables.values())
+            for table in shelf.tables.values():
+                cell.shelves.settle(table)
+                tables.append(table)
     return tables
 
 

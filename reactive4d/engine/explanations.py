@@ -4,9 +4,9 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.evictions import tables
 from reactive4d.engine.failures import Failure
-from reactive4d.engine.segments import Segment, covering
+from reactive4d.engine.frames import LOCK
+from reactive4d.engine.segments import Segment, Table, covering
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
@@ -23,55 +23,52 @@ def explain(engine: "Engine", cell: "Cell", t: float, parameters: Mapping[str, A
 
     t = min(float(t), sys.float_info.max)
     point = engine.point(parameters) if parameters else None
-    before = {other: _runs(other) for other in reached([cell])}
-    stale = {other: _standing(other, t) for other in before}
-    cell._hit_at(float(t), dict(parameters))  # pyright: ignore[reportPrivateUsage]
-    lines: list[str] = []
+    with LOCK:
+        before = {other: other.runs for other in reached([cell])}
+        stale = {other: _standing(other, t, point) for other in before}
+    cell._hit_at(t, dict(parameters))  # pyright: ignore[reportPrivateUsage]
+    found: list[tuple[Any, ...]] = []
     seen: set[Any] = set()
-    todo: list[tuple[Any, float, int, str]] = [(cell, float(t), 0, "")]
-    while todo and len(lines) < MOST_LINES:
-        current, at, depth, how = todo.pop()
-        again = (current, at) in seen
-        seen.add((current, at))
-        segment = _found(engine, current, at, point)
-        lines.append("  " * depth + _line(current, at, segment, how, before, stale, again=again))
-        if again or segment is None:
-            continue
-        for entry in reversed(segment.reads):
-            if type(entry) is tuple:
-                below, there, _ = engine.elsewhere(entry, at, point)
-                todo.append((below, there, depth + 1, f" at t = {there:g}"))
-            else:
-                todo.append((entry, at, depth + 1, ""))
-    if todo:
-        lines.append("…")
-    return "\n".join(lines)
+    todo: list[tuple[Any, float, Any, int, str]] = [(cell, t, point, 0, "")]
+    with LOCK:
+        while todo and len(found) < MOST_LINES:
+            current, at, where, depth, how = todo.pop()
+            again = (current, at, where) in seen
+            seen.add((current, at, where))
+            clean = [segment for segment in _remembered(current, at, where) if segment.clean]
+            segment = clean[0] if clean else None
+            found.append((depth, current, at, segment, how, again))
+            if again or segment is None:
+                continue
+            for entry in reversed(segment.reads):
+                if type(entry) is tuple:
+                    below, there, its = engine.elsewhere(entry, at, where)
+                    notes = [f"at t = {there:g}"] if entry[1] is not None else []
+                    notes += [f"with {name} = {value!r}" for name, value in entry[2] or ()]
+                    todo.append((below, there, its, depth + 1, " " + " ".join(notes)))
+                else:
+                    todo.append((entry, at, where, depth + 1, ""))
+    # What the user's own `repr` does is none of the lock's business.
+    lines = [
+        "  " * depth + _line(current, at, segment, how, before, stale, again=again)
+        for depth, current, at, segment, how, again in found
+    ]
+    return "\n".join([*lines, "…"] if todo else lines)
 
 
-def _runs(cell: "Cell") -> int:
-    return cell.runs
-
-
-def _standing(cell: "Cell", t: float) -> str:
-    segment = covering(cell, t)
-    if segment is None:
+def _standing(cell: "Cell", t: float, point: Any) -> str:
+    remembered = _remembered(cell, t, point)
+    if not remembered:
         return "nothing was remembered here"
-    return "" if segment.clean else "what it read was edited"
+    return "" if any(segment.clean for segment in remembered) else "what it read was edited"
 
 
-def _found(engine: "Engine", cell: "Cell", t: float, point: Any) -> Segment | None:
-    for table in tables(cell):
-        if cell.shelves is not None and table is not cell:
-            for shelf in cell.shelves.shelves:
-                if shelf.tables.get(shelf.key(point)) is table:
-                    segment = covering(table, t)
-                    if segment is not None:
-                        return segment
-        else:
-            segment = covering(table, t)
-            if segment is not None and segment.clean:
-                return segment
-    return None
+def _remembered(cell: "Cell", t: float, point: Any) -> list[Segment]:
+    """What a cell remembers at a point, clean or not: of the answers that read no parameter, and of those that did."""
+    tables: list[Table | None] = [cell]
+    if cell.shelves is not None:
+        tables.extend(cell.shelves.table(shelf, point) for shelf in cell.shelves.shelves)
+    return [segment for table in tables if table is not None and (segment := covering(table, t)) is not None]
 
 
 def _line(cell: "Cell", t: float, segment: Segment | None, how: str, before: Any, stale: Any, *, again: bool) -> str:
