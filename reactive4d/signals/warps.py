@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from reactive4d.engine import Affine, Formula, TimeMap
 from reactive4d.errors import TimeError, hint
-from reactive4d.signals.maps import Creep, Discrete, Hold, Repeat, SlowInOut, forward_each
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.maps import Creep, Discrete, Hold, Repeat, SlowInOut, forward_each
 
 __all__ = [
     "Follow",
@@ -65,7 +65,7 @@ class Follow(Signal[T]):
 
     @property
     def kind_of_map(self) -> str:
-        """Which warp it is: "warp", "delay", "stretch" …"""
+        """Which warp it is: "warp", "delay", "stretch" and so on."""
         return "warp" if self.make is _itself else getattr(self.make, "__name__", "").strip("_")
 
     def rule(self) -> Any:

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from reactive4d.engine import Affine, TimeMap, engine
 from reactive4d.errors import TimeError
+from reactive4d.signals.facade import Signal
 from reactive4d.signals.keys import Keys, keys
 from reactive4d.signals.maps import Creep, Discrete, Hold, Repeat, SlowInOut, forward_each
-from reactive4d.signals.signal import Signal
 from reactive4d.signals.sources import Variable, time
 from reactive4d.signals.warps import creep, delay, discrete, hold, repeat, reverse, slow_in_out, stretch, warp
 

@@ -131,6 +131,7 @@ def _folded(curve: "Curve", mode: str) -> Sampler:
         if hi <= _nextafter(inner, INF):
             return t, _nextafter(t, INF), value
         start, stop = unfold((lo, hi), t, first, last, mirrored=mirrored)
-        return start, stop, value
+        # The last key itself is met at its own time only, though a cycle begins there.
+        return _nextafter(last, INF) if start <= last < stop else start, stop, value
 
     return sample
