@@ -66,6 +66,7 @@ class Cell(Hits):
         self.hit: Hit = NEVER
         self.hot = COLD
         self.warm = COOL
+        self.last = None
         self.readers: Any = None
         self.ref: Any = None
         self.linked: tuple[Any, ...] | None = None
@@ -133,7 +134,7 @@ class Cell(Hits):
                 if point is None:
                     self.hot = hit[:3]
                 else:
-                    self.warm = (*hit[:3], parameters)
+                    self.warm = self.warmed(hit[0], hit[1], hit[2], parameters)
         return hit
 
     def valid(self, t: float, **parameters: Any) -> Interval:

@@ -4,8 +4,8 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.failures import Failure
-from reactive4d.engine.frames import here
-from reactive4d.engine.segments import Table
+from reactive4d.engine.frames import LOCK, here
+from reactive4d.engine.segments import Table, covering
 
 if TYPE_CHECKING:
     from reactive4d.engine.engines import Engine
@@ -17,12 +17,13 @@ INF = float("inf")
 # (lo, hi, answer) as last asked with no parameters given.
 Hot = tuple[float, float, Any]
 
-# (lo, hi, answer, parameters) as last asked with some.
-Warm = tuple[float, float, Any, dict[str, Any]]
+# (lo, hi, answer, parameters) as asked lately with some, each combination once.
+Warm = tuple[tuple[float, float, Any, dict[str, Any]], ...]
 
 # What a cell has published that has nothing to hand out: no time lies in it.
 COLD: Hot = (INF, -INF, None)
-COOL: Warm = (INF, -INF, None, {})
+COOL: Warm = ()
+MOST_WARM = 4
 
 # Evaluations under way, and open logs, in the whole process; and both. Where there are none, nobody needs to know who asks.
 _evaluating = 0
@@ -48,12 +49,13 @@ def listen(change: int) -> None:
 class Hits(Table):
     """What a cell answered last from outside, published as a tuple: it is there whole or not at all."""
 
-    __slots__ = ("engine", "hits", "hot", "warm")
+    __slots__ = ("engine", "hits", "hot", "last", "warm")
 
     engine: "Engine"
     hits: int
     hot: Hot
     warm: Warm
+    last: float | None  # the start of the answer that was found last by looking it up
 
     def at(self, t: float, /, **parameters: Any) -> Any:
         """The answer at one instant; of a signal also the answers at an array of times.
@@ -82,10 +84,13 @@ class Hits(Table):
                     self.engine.hear(("reused", self, lo, hi))
                 return value
         elif parameters:
-            lo, hi, value, given = self.warm
-            if t.__class__ is float and lo <= t < hi and not _logging and _alike(parameters, given):  # noqa: SIM102
-                if not _evaluating or here.me.frame is None:
-                    return value
+            if t.__class__ is float and not _logging and (not _evaluating or here.me.frame is None):
+                try:
+                    for lo, hi, value, given in self.warm:
+                        if lo <= t < hi and parameters == given:
+                            return value
+                except ValueError:  # an array among the values
+                    pass
         elif not _attended:
             if t.__class__ is int:
                 t = float(t)
@@ -105,15 +110,29 @@ class Hits(Table):
                     value = segment.value
                     segment.touched = engine.clock
                     if engine.owner is None and engine.epoch == epoch and value.__class__ is not Failure:
+                        if self.last is segment.lo:
+                            self._heat(t)
+                        else:
+                            self.last = segment.lo
                         return value
         return self._asked(t, parameters)
+
+    def _heat(self, t: float) -> None:
+        """Publish an answer that is asked for again and again, if it still holds."""
+        with LOCK:
+            engine = self.engine
+            segment = covering(self, t)
+            if segment is not None and segment.clean and engine.owner is None and type(segment.value) is not Failure:
+                self.hot = (segment.lo, segment.hi, segment.value)
+
+    def warmed(self, lo: float, hi: float, value: Any, parameters: dict[str, Any]) -> Warm:
+        """What to publish when an answer at some parameters has come; the lock is held."""
+        try:
+            rest = [entry for entry in self.warm if entry[3] != parameters]
+        except ValueError:  # an array among the values
+            return self.warm
+        return ((lo, hi, value, parameters), *rest[: MOST_WARM - 1])
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         raise NotImplementedError
 
-
-def _alike(these: dict[str, Any], those: dict[str, Any]) -> bool:
-    try:
-        return these == those
-    except ValueError:  # an array among the values
-        return False
