@@ -29,7 +29,7 @@ def model() -> tuple[r4.Keys[float], Mapping[str, r4.Signal[Any]]]:
         The keys of the ball's height, which one edits, and the signals by name; metres and seconds.
     """
     height = r4.keys({0: 3.0, 2: 0.5, 4: 0.5, LAST_KEY: 3.0})
-    wind = r4.Parameter("wind", 1.0, doc="how far the kite is blown, in heights of the ball")
+    wind: r4.Parameter[float] = r4.Parameter("wind", 1.0, doc="how far the kite is blown, in heights of the ball")
     x = wind * height
     return height, {
         "ball.height": height,
