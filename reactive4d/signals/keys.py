@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.engine import Engine, moment, narrow
+from reactive4d.engine.frames import NEVER
 from reactive4d.errors import ShapeError, hint
 from reactive4d.signals.colors import is_color_name
 from reactive4d.signals.curves import Curve, Extrapolation, Key, Kind
@@ -22,10 +23,10 @@ from reactive4d.signals.curves.controls import key_time
 from reactive4d.signals.curves.mixtures import Known, Mixture, Mixtures
 from reactive4d.signals.curves.spaces import Colors, Held, Numbers, Rotations, Space, Vectors
 from reactive4d.signals.easings import Ease, Easing
+from reactive4d.signals.facade import Signal
 from reactive4d.signals.lines import Line
 from reactive4d.signals.rotations import Rotation, slerp
 from reactive4d.signals.settables import Settable
-from reactive4d.signals.facade import Signal
 
 __all__ = ["Keys", "Points", "keys"]
 
@@ -133,6 +134,8 @@ class Keys(Settable[T]):
             self._be_computed()
         else:
             self._be_source()
+            if self.own is not None:
+                self.own.hit = NEVER  # it has the stamps of another content
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """What the curve says."""

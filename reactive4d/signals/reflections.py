@@ -7,8 +7,10 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.engine.frames import NEVER
 from reactive4d.signals.curves import Curve
 from reactive4d.signals.curves.areas import Area
+from reactive4d.signals.curves.differences import first_difference
 from reactive4d.signals.curves.slopes import Slope, plain
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.keys import Keys
@@ -54,6 +56,8 @@ class _OfKeys(Settable[Any]):
             self._be_computed()
         else:
             self._be_source()
+            if self.own is not None:
+                self.own.hit = NEVER  # it has the stamps of another content
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """What was worked out of the curve."""
@@ -104,13 +108,11 @@ class KeyArea(_OfKeys):
 
     def difference(self, old: Curve, new: Curve) -> list[tuple[float, float]]:
         """From the first time after the start at which the curves differ; everywhere, if they do before it."""
-        spans = old.difference(new)
-        if not spans:
+        lo = first_difference(old, new)
+        if lo is None:
             return []
-        # The sum begins at the first key: below it, not even its rounding may change.
-        lo = spans[0][0]
-        is_later = lo >= self.start and lo >= old.times[0] and old.times[0] == new.times[0]
-        return [(lo if is_later and old.space.kind == new.space.kind else -INF, INF)]
+        # What comes before the start is part of every answer, and so is its rounding.
+        return [(lo if lo >= self.start and old.times[0] == new.times[0] else -INF, INF)]
 
 
 @final

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reactive4d.engine import engine
 from reactive4d.errors import ShapeError, TimeError
 from reactive4d.signals.algebra import vec
 from reactive4d.signals.calculus import derivative, integral
@@ -325,3 +326,36 @@ def test_what_cannot_be_differentiated_says_so() -> None:
         integral(time, math.inf)
     with pytest.raises(TimeError, match="a million seconds"):
         integral(_opaque).at(1e9)
+
+
+@given(
+    st.sampled_from(["step", "linear", "catmull_rom", "bspline"]),
+    st.sampled_from(["hold", "linear", "cycle", "cycle_offset", "oscillate"]),
+    st.lists(st.tuples(st.integers(0, 8), st.sampled_from([0.0, 1.0, -2.0])), max_size=6),
+    st.lists(st.floats(-4, 12), min_size=1, max_size=5),
+    st.sampled_from([-1.0, 0.0, 3.3]),
+)
+def test_remembered_integrals_are_those_that_would_be_computed(
+    interpolation: str, outside: Any, edits: list[tuple[int, float]], times: list[float], start: float
+) -> None:
+    """
+    Through any edits, to the last bit.
+
+        keys --> area, velocity
+    """
+    k = keys({0: 0.0, 2: 1.0, 5: 1.0}, interpolation=interpolation, before=outside, after=outside)
+    derived = [integral(k, start) * 2, derivative(k) * 2]
+    for edit in [None, *edits]:
+        if edit is not None and edit[0] in k.points and len(k.points) > 1 and edit[1] == 0.0:
+            del k.points[edit[0]]
+        elif edit is not None:
+            k.points[edit[0]] = edit[1]
+        for x in derived:
+            for t in [*times, 0.0, 2.5, 7.0]:
+                found = x.at(t)
+                assert found == engine.naive(x, t)
+                span = x.valid(t)
+                for u in (span.start, math.nextafter(span.stop, -INF), (max(span.start, -9) + min(span.stop, 20)) / 2):
+                    if span.start <= u < span.stop and abs(u) < INF:
+                        assert engine.naive(x, u) == found, (t, u)
+    engine.check(derived)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from reactive4d.engine import engine
 from reactive4d.errors import CycleError, ShapeError, TimeError
 from reactive4d.signals.algebra import vec
+from reactive4d.signals.calculus import derivative
 from reactive4d.signals.choices import where
 from reactive4d.signals.colors import color
 from reactive4d.signals.curves import Curve, Key
@@ -18,6 +19,7 @@ from reactive4d.signals.functions import signal
 from reactive4d.signals.keys import Keys, keys
 from reactive4d.signals.rotations import Rotation
 from reactive4d.signals.sources import Variable, time
+from reactive4d.signals.warps import delay
 
 INF = math.inf
 
@@ -338,3 +340,76 @@ def test_edited_keys_answer_as_new_ones_would(edits: list[tuple[str, int, int, f
         assert [shifted.at(x) for x in times] == [fresh.at(x) + 1 for x in times]
         np.testing.assert_allclose(shifted.at(times), fresh.sample_many(times) + 1, atol=1e-13)
     engine.check([k, shifted])
+
+
+SOURCES = st.sampled_from(["v", "steps", "time", 1.0, 2.0, -1.0])
+TIMES = st.integers(0, 8).map(float)
+
+
+@given(
+    st.sampled_from(["step", "linear", "catmull_rom", "bspline"]),
+    st.sampled_from(["hold", "linear", "cycle", "oscillate"]),
+    st.dictionaries(TIMES, SOURCES, min_size=1, max_size=5),
+    st.lists(st.tuples(st.sampled_from(["point", "delete", "move", "v", "steps"]), TIMES, TIMES, SOURCES), max_size=6),
+    st.lists(st.floats(-4, 12), min_size=1, max_size=5),
+)
+def test_remembered_answers_are_those_that_would_be_computed(
+    interpolation: str, outside: Any, points: dict[float, Any], edits: list[Any], times: list[float]
+) -> None:
+    """
+    Through any edits, to the last bit, and over every span that is claimed.
+
+        v, steps, time --> keys --> velocity, area, later
+    """
+    v, steps = Variable(3.0), keys({0: 0.0, 2: 5.0, 4: 5.0, 5: 1.0}, interpolation="step")
+    named = {"v": v, "steps": steps, "time": time}
+
+    def value(x: Any) -> Any:
+        return named.get(x, x)
+
+    k: Keys[Any] = keys(
+        {t: value(x) for t, x in points.items()}, interpolation=interpolation, before=outside, after=outside
+    )
+    derived = [k * 2, delay(k, 1.5), derivative(k) + 1]
+    for edit in [None, *edits]:
+        match edit:
+            case ("point", t, _, x):
+                k.points[t] = value(x)
+            case ("delete", t, _, _) if t in k.points and len(k.points) > 1:
+                del k.points[t]
+            case ("move", t, to, _) if t in k.points and to not in k.points:
+                k.move(t, to)
+            case ("v", t, _, _):
+                v.value = t
+            case ("steps", t, to, _):
+                steps.points[t] = to
+            case _:
+                pass
+        for x in derived:
+            for t in [*times, 0.0, 2.5, 4.0]:
+                found = x.at(t)
+                assert found == engine.naive(x, t)
+                span = x.valid(t)
+                for u in (span.start, math.nextafter(span.stop, -INF), (max(span.start, -9) + min(span.stop, 20)) / 2):
+                    if span.start <= u < span.stop and abs(u) < INF:
+                        assert engine.naive(x, u) == found, (t, u)
+    engine.check([k, *derived])
+
+
+def test_an_edit_of_a_dragged_key_asks_only_what_is_drawn() -> None:
+    """A hundred positions of one key, one redraw each: one evaluation each."""
+    k = keys(dict.fromkeys(range(100), 0.0))
+    calls: list[float] = []
+    seen = k.map(lambda x: calls.append(x) or x)
+    for t in range(99):
+        seen.at(t + 0.5)
+    calls.clear()
+    for i in range(100):
+        k.points[50] = float(i)
+        k.points[50] = i + 1.0
+        seen.at(50.5)
+    assert len(calls) == 100
+    calls.clear()
+    for t in range(99):
+        seen.at(t + 0.5)
+    assert len(calls) == 1

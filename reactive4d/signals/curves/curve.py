@@ -14,7 +14,7 @@ from reactive4d.signals.curves.controls import Key, key_time
 from reactive4d.signals.curves.extrapolations import EXTRAPOLATIONS
 from reactive4d.signals.curves.interpolations import INTERPOLATIONS, Interpolation, Line
 from reactive4d.signals.curves.kinds import space_of
-from reactive4d.signals.curves.mixtures import Known, Mixture, Mixtures
+from reactive4d.signals.curves.mixtures import Mixture, Mixtures
 from reactive4d.signals.curves.pieces import STEADY, Piece, Sample
 from reactive4d.signals.curves.samplers import sampler
 from reactive4d.signals.curves.spaces import Numbers, Space, Vectors, settled
@@ -319,19 +319,6 @@ class Curve:
         usual: dict[str, Any] = {name: getattr(self, name) for name in _SETTINGS}
         told: dict[str, Any] = usual | {"kind": inner.kind if inner else None} | settings
         return Curve(points, **told)
-
-    def as_live(self) -> "Curve":
-        """The same keys, their values taken as if they were not known."""
-        if self.is_live:
-            return self
-        new = object.__new__(Curve)
-        for name in ("interpolation", "ease", "before", "after", "degree", "unknowns", "rule"):
-            object.__setattr__(new, name, getattr(self, name))
-        space = Mixtures(self.space, self.unknowns or Known)
-        object.__setattr__(new, "space", space)
-        known = [Known(point, self.answer(point)) for point in self.values]
-        new._settle(list(self.times), list(self.keys), [Mixture({term: 1.0}) for term in known])
-        return new
 
     def moved(self, t: float, to: float) -> "Curve":
         """The same curve with the key at `t` moved to the time `to`, past other keys if need be.

@@ -5,6 +5,7 @@ depends on the keys of its own neighbourhood alone. What remains is compared pie
 hold the same value, or if they are the same polynomial over the same span.
 """
 
+import math
 from collections.abc import Iterator
 from itertools import compress, count
 from operator import is_not
@@ -18,9 +19,10 @@ from reactive4d.signals.easings import Easing
 if TYPE_CHECKING:
     from reactive4d.signals.curves.curve import Curve
 
-__all__ = ["difference"]
+__all__ = ["difference", "first_difference"]
 
 Span: TypeAlias = tuple[float, float]
+INF = math.inf
 
 
 def difference(old: "Curve", new: "Curve") -> list[Span]:
@@ -36,24 +38,36 @@ def difference(old: "Curve", new: "Curve") -> list[Span]:
     if old is new:
         return []
     if old.is_live != new.is_live:
-        # The same keys, once known and once not, are computed in different ways: only what is held stays the same.
-        return _difference(old.as_live(), new.as_live(), held_only=True)
-    return _difference(old, new, held_only=False)
-
-
-def _difference(old: "Curve", new: "Curve", *, held_only: bool) -> list[Span]:
+        return [(-INF, INF)]  # the same keys, once known and once not, are computed in different ways
     folding = old.before in FOLDS or old.after in FOLDS or new.before in FOLDS or new.after in FOLDS
     spans: list[Span] = []
     doubtful: list[Span] = []
     for span, a, b in _overlaps(*_pieces(old, new)):
         if not (a.controls or b.controls):
             doubtful.append(span)
-        elif (held_only and not a.is_held) or not _agree(a, b, old.space, new.space):
+        elif not _agree(a, b, old.space, new.space):
             spans.append(span)
     # What repeats the keys is the same only if all of them are.
-    if folding and doubtful and (spans or held_only or not _same_ends(old, new) or not _same_modes(old, new)):
+    if folding and doubtful and (spans or not _same_ends(old, new) or not _same_modes(old, new)):
         spans = sorted(spans + doubtful)
     return _joined(spans)
+
+
+def first_difference(old: "Curve", new: "Curve") -> float | None:
+    """The break from which on two curves are cut into other pieces; None, if they are made of the same ones.
+
+    What adds up pieces is rounded differently if they are cut differently, even where they answer the same.
+    """
+    if old is new or old.same(new):
+        return None
+    if old.is_live != new.is_live:
+        return -INF
+    for i in range(min(len(old.breaks), len(new.breaks)) + 1):
+        a, b = old.piece(i), new.piece(i)
+        is_cut_alike = a.lo == b.lo and a.hi == b.hi
+        if not is_cut_alike or not a.controls or not b.controls or not _agree(a, b, old.space, new.space):
+            return min(a.lo, b.lo)
+    return None
 
 
 def _same_ends(old: "Curve", new: "Curve") -> bool:
