@@ -79,7 +79,7 @@ def is_unvarying(x: Any) -> bool:
 
 def constant_or(x: Any, name: str) -> Signal[Any]:
     """A signal as it is; a constant as a signal."""
-    return x if is_a(x, Signal) else Variable(x, name=name)
+    return x if is_a(x, Signal) else Variable(float(x) if type(x) is int else x, name=name)
 
 
 def is_zero(x: Any) -> bool:

@@ -17,7 +17,7 @@ from reactive4d.signals.curves.kinds import space_of
 from reactive4d.signals.curves.mixtures import Mixture, Mixtures
 from reactive4d.signals.curves.pieces import STEADY, Piece, Sample
 from reactive4d.signals.curves.samplers import sampler
-from reactive4d.signals.curves.spaces import Numbers, Space, Vectors, settled
+from reactive4d.signals.curves.spaces import Colors, Numbers, Space, Vectors, settled
 from reactive4d.signals.curves.spans import inner_piece, outer_piece
 from reactive4d.signals.easings import Ease, Easing, easing
 
@@ -425,9 +425,10 @@ class Curve:
 
     def answer(self, point: Any) -> Any:
         """What the curve answers where it is at a point of its space; at a key exactly the key's value."""
-        for key, value in zip(self.keys, self.values, strict=True):
-            if value is point:
-                return self.space.exact(key.value, point)
+        if isinstance(self.space, Colors):
+            for key, value in zip(self.keys, self.values, strict=True):
+                if value is point:
+                    return self.space.exact(key.value, point)
         return self.space.answer(point)
 
     def _straighten(self) -> tuple[Array, Array] | tuple[()]:
