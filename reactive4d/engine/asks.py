@@ -7,8 +7,8 @@ read     from inside of a rule, which runs without the lock
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from reactive4d.engine import hits
 from reactive4d.engine.frames import DEPTH, LOCK, CycleFound, Hit, Suspended, Task, here
-from reactive4d.engine.hits import watch
 from reactive4d.engine.peeks import peek, recheck
 from reactive4d.engine.walks import bring, cycle_error
 from reactive4d.errors import DepthError, EvaluationError, hint
@@ -23,7 +23,7 @@ __all__ = ["ask", "read"]
 def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
     """Bring a cell up to date from outside of any evaluation, the lock held; the hit may hold a `Failure`."""
     engine = cell.engine
-    watch(1)
+    hits.attended += 1
     try:
         return bring(engine, cell, t, point, here.me)
     except CycleFound as found:
@@ -32,8 +32,7 @@ def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
         error = DepthError(f"{cell.name}: the interpreter's stack is full")
         raise hint(error, "ask from a shallower place; algebra and lift(f) need no stack, opaque rules do") from None
     finally:
-        if not watch(-1) and (engine.bytes > engine.limit or engine.unpaid):
-            engine.trim()
+        hits.attended -= 1
 
 
 def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
@@ -47,7 +46,7 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
             recheck(engine, frame)
         hit = None if engine.owner is not None and engine.owner is not me else peek(engine, cell, t, point)
         if hit is None:
-            if me.depth >= DEPTH:
+            if len(me.stacks) >= DEPTH:
                 raise Suspended(cell, t, point)
             if frame.nested < 0.0:
                 hit = bring(engine, cell, t, point, me)

@@ -11,10 +11,11 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine import asks, edits, naive
+from reactive4d.engine import asks, edits, hits, naive
 from reactive4d.engine.answers import add_axes
+from reactive4d.engine.express import express
 from reactive4d.engine.failures import Failure, raised
-from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, Hit, Task, here
+from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, CycleFound, Hit, Task, here
 from reactive4d.engine.hits import COLD, COOL, Hits
 from reactive4d.engine.kinds import AXIS, COMPUTED, FORMULA, SOURCE
 from reactive4d.engine.maps import Fixed, TimeMap
@@ -104,6 +105,23 @@ class Cell(Hits):
             raise raised(value)
         return value
 
+    def _refreshed(self, t: float) -> Any:
+        """The answer where what is remembered is in check, and nothing is being evaluated: at once, if it is simple."""
+        engine = self.engine
+        with LOCK:
+            if self.busy is None and engine.owner is None and t < INF:
+                try:
+                    done = express(engine, self, t + 0.0, None, here.me)
+                except CycleFound:
+                    done = False  # the general way tells the path
+                hit = self.hit
+                if done and hit[0] <= t < hit[1] and hit[5] is None:
+                    self.hot = hit[:3]
+                    if (engine.bytes > engine.limit or engine.unpaid) and hits.attended == hits.logging:
+                        engine.trim()
+                    return hit[2]
+        return self._asked(t, {})
+
     def _is_batch(self, t: Any) -> bool:
         return False
 
@@ -135,6 +153,8 @@ class Cell(Hits):
                     self.hot = hit[:3]
                 else:
                     self.warm = self.warmed(hit[0], hit[1], hit[2], parameters)
+            if (engine.bytes > engine.limit or engine.unpaid) and hits.attended == hits.logging:
+                engine.trim()
         return hit
 
     def valid(self, t: float, **parameters: Any) -> Interval:

@@ -7,11 +7,10 @@ from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine import checks, edits, evictions, explanations, graphs, naive
+from reactive4d.engine import checks, edits, evictions, explanations, graphs, hits, naive
 from reactive4d.engine.events import Log
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import CHANGED, LOCK, CycleFound, Hit, Me, here
-from reactive4d.engine.hits import listen, watch
 from reactive4d.engine.points import Point
 from reactive4d.engine.segments import Segment
 from reactive4d.errors import ParameterError, TimeError, unknown
@@ -184,7 +183,7 @@ class Engine:
         """The answer as an evaluator gives it that remembers nothing: for tests, and for doubts."""
         point = self.point(parameters) if parameters else None
         with LOCK:
-            watch(1)
+            hits.attended += 1
         try:
             value = naive.evaluate(cell, min(float(t), LATEST) + 0.0, point)
         except CycleFound as found:
@@ -193,7 +192,7 @@ class Engine:
             raise cycle_error(found.path) from None
         finally:
             with LOCK:
-                watch(-1)
+                hits.attended -= 1
         if type(value) is Failure:
             raise raised(value)
         return value
@@ -244,13 +243,15 @@ class Engine:
         log = Log()
         with LOCK:
             self._listen([*self.logs, log])
-            listen(1)
+            hits.attended += 1
+            hits.logging += 1
         try:
             yield log
         finally:
             with LOCK:
                 self._listen([other for other in self.logs if other is not log])
-                listen(-1)
+                hits.attended -= 1
+                hits.logging -= 1
 
     def _listen(self, logs: list[Log]) -> None:
         for log in self.logs[:1]:

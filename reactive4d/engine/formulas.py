@@ -25,7 +25,7 @@ acquire, release = LOCK.acquire, LOCK.release
 def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
     """Answer a cell that declares its inputs: None when done, [what is missing], or True to try again."""
     inputs = cell.inputs
-    kept = claim.kept.pop(cell, None) if claim.kept else None
+    kept = claim.kept.pop(cell, None) if claim.kept is not None else None
     if kept is not None and kept[0] == engine.epoch:
         _, lo, hi, values, stamps, axes = kept
         rest = inputs[len(stamps) :]
@@ -50,7 +50,7 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
                 if hit is None:
                     if len(inputs) > FEW:
                         # Go on from here, else a wide formula would look at its inputs once for each of them.
-                        claim.kept[cell] = engine.epoch, lo, hi, values, stamps, axes
+                        claim.keep(cell, (engine.epoch, lo, hi, values, stamps, axes))
                     return [source]
         a, b, value, stamp, _, its = hit
         if a > lo:

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
+    from reactive4d.engine.engines import Engine
     from reactive4d.engine.points import Point
 
 __all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me"]
-__all__ += ["Suspended", "Task", "here"]
+__all__ += ["Suspended", "Task", "here", "leave"]
 
 INF = float("inf")
 CLAIM = 4  # as a cell's kind
@@ -56,13 +57,12 @@ class CycleFound(BaseException):
 
 
 class Me:
-    """A thread: the task whose rule it runs, how deep it is, what it has under way, and whom it waits for."""
+    """A thread: the task whose rule it runs, the walks that it has under way, one in another, and whom it waits for."""
 
-    __slots__ = ("depth", "frame", "stacks", "waiting")
+    __slots__ = ("frame", "stacks", "waiting")
 
     def __init__(self) -> None:
         self.frame: Task | None = None
-        self.depth = 0
         self.stacks: list[list[Any]] = []
         self.waiting: Claim | None = None
 
@@ -78,17 +78,23 @@ here = _Here()
 class Claim:
     """One thread bringing cells up to date at one point."""
 
-    __slots__ = ("kept", "me", "patient", "point", "restarts", "t")
+    __slots__ = ("kept", "me", "point", "restarts", "t")
 
     kind = CLAIM
+    busy = None
 
     def __init__(self, t: float, point: "Point | None", me: Me) -> None:
         self.t = t
         self.point = point
         self.me = me
-        self.kept: dict[Cell, Any] = {}  # how far cells with many inputs have come
+        self.kept: dict[Cell, Any] | None = None  # how far cells with many inputs have come
         self.restarts = 0
-        self.patient = False  # whether edits wait for it
+
+    def keep(self, cell: "Cell", progress: Any) -> None:
+        """Remember how far a cell has come."""
+        if self.kept is None:
+            self.kept = {}
+        self.kept[cell] = progress
 
 
 class Crowd(list[Claim]):
@@ -133,3 +139,16 @@ class Task:
         self.raised: tuple[BaseException, Any] | None = None
         self.handed: Any = None
         self.naive: Any = None
+
+
+def leave(engine: "Engine", cell: "Cell", claim: Claim) -> None:
+    """Take a claim off a cell; the lock is held."""
+    busy = cell.busy
+    if busy is claim:
+        cell.busy = None
+    elif type(busy) is Crowd and claim in busy:
+        busy.remove(claim)
+        if len(busy) == 1:
+            cell.busy = busy[0]
+    if engine.waiting:
+        CHANGED.notify_all()

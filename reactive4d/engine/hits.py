@@ -10,7 +10,7 @@ from reactive4d.engine.segments import Table, covering
 if TYPE_CHECKING:
     from reactive4d.engine.engines import Engine
 
-__all__ = ["COLD", "COOL", "Hits", "Hot", "Warm", "listen", "watch"]
+__all__ = ["COLD", "COOL", "Hits", "Hot", "Warm"]
 
 INF = float("inf")
 
@@ -25,25 +25,10 @@ COLD: Hot = (INF, -INF, None)
 COOL: Warm = ()
 MOST_WARM = 4
 
-# Evaluations under way, and open logs, in the whole process; and both. Where there are none, nobody needs to know who asks.
-_evaluating = 0
-_logging = 0
-_attended = 0
-
-
-def watch(change: int) -> int:
-    """Add to the count of evaluations under way, and return it; the lock is held."""
-    global _evaluating, _attended
-    _evaluating += change
-    _attended += change
-    return _evaluating
-
-
-def listen(change: int) -> None:
-    """Add to the count of open logs; the lock is held."""
-    global _logging, _attended
-    _logging += change
-    _attended += change
+# Evaluations under way and open logs, in the whole process, and the latter alone. Where there are none, nobody needs to
+# know who asks. Written with the lock held; plain variables of the module, since every ask reads them.
+attended = 0
+logging = 0
 
 
 class Hits(Table):
@@ -77,36 +62,38 @@ class Hits(Table):
         """
         lo, hi, value = self.hot
         if t.__class__ is float and lo <= t < hi and not parameters:
-            if not _attended:
+            if not attended:
                 return value
-            if not _evaluating or here.me.frame is None:
-                if _logging:
+            if attended == logging or here.me.frame is None:
+                if logging:
                     self.engine.hear(("reused", self, lo, hi))
                 return value
         elif parameters:
-            if t.__class__ is float and not _logging and (not _evaluating or here.me.frame is None):
+            if t.__class__ is float and not logging and (attended == logging or here.me.frame is None):
                 try:
                     for lo, hi, value, given in self.warm:
                         if lo <= t < hi and parameters == given:
                             return value
                 except ValueError:  # an array among the values
                     pass
-        elif not _attended:
+        elif not attended:
             if t.__class__ is int:
                 t = float(t)
                 if lo <= t < hi:
                     return value
-            if t.__class__ is float and self.segments:
+            segments = self.segments
+            if t.__class__ is float and segments:
                 # Looked up without the lock. What could make the answer false meanwhile, an edit or a transaction on
                 # another thread, shows in `epoch` or `owner`.
                 engine = self.engine
                 epoch = engine.epoch
-                i = bisect_right(self.starts, t) - 1
                 try:
-                    segment = self.segments[i]
+                    segment = segments[0] if len(segments) == 1 else segments[bisect_right(self.starts, t) - 1]
                 except IndexError:  # changed by another thread between the two
                     return self._asked(t, parameters)
-                if segment.clean and segment.lo <= t < segment.hi:
+                if not segment.clean:
+                    return self._refreshed(t)
+                if segment.lo <= t < segment.hi:
                     value = segment.value
                     segment.touched = engine.clock
                     if engine.owner is None and engine.epoch == epoch and value.__class__ is not Failure:
@@ -132,6 +119,9 @@ class Hits(Table):
         except ValueError:  # an array among the values
             return self.warm
         return ((lo, hi, value, parameters), *rest[: MOST_WARM - 1])
+
+    def _refreshed(self, t: float) -> Any:
+        raise NotImplementedError
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         raise NotImplementedError

@@ -4,11 +4,11 @@ Nothing is computed. The walk stops where everything is marked already, so that 
 next to nothing. It has a stack of its own: no depth of links is too deep.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.frames import NEVER
 from reactive4d.engine.hits import COLD, COOL
-from reactive4d.engine.links import Readers, preimages, readers_of
+from reactive4d.engine.links import Readers, preimages
 from reactive4d.engine.segments import flip
 
 if TYPE_CHECKING:
@@ -47,44 +47,55 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
         readers = cell.readers
         if readers is None:
             continue
-        while type(readers) is not Readers and readers is not None:
-            # A chain: each has one reader.
-            reader = readers()
+        dead: list[Any] = []
+        for ref, maps in readers.items() if type(readers) is Readers else ((readers, None),):
+            reader = ref()
             if reader is None:
-                cell.readers = readers = None
-                break
+                dead.append(ref)
+                continue
+            if maps is not None:
+                for a, b in preimages(maps, lo, hi):
+                    _push_elsewhere(engine, reader, a, b, walks, stack)
+                continue
             segments = reader.segments
-            if len(segments) == 1 and reader.shelves is None and not engine.logs:
+            if len(segments) == 1 and reader.shelves is None:
+                # The commonest of cases, at once: one answer, over no more than what is touched.
                 segment = segments[0]
                 if not segment.clean:
-                    readers = None
-                    break
+                    continue
                 if lo <= segment.lo and segment.hi <= hi:
                     segment.clean = False
-                    lo, hi = segment.lo, segment.hi
                     reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
-                    cell = reader
-                    readers = cell.readers
+                    if engine.logs:
+                        engine.emit("marked", reader, segment.lo, segment.hi)
+                    stack.append((reader, segment.lo, segment.hi))
                     continue
             changed = mark(engine, reader, lo, hi)
-            if changed is None:
-                readers = None
-                break
-            cell, (lo, hi) = reader, changed
-            readers = cell.readers
-        if readers is None:
-            continue
-        for reader, maps in readers_of(cell):
-            for a, b in preimages(maps, lo, hi):
-                if maps is not None:
-                    steps, before = walks.get(reader, (0, a))
-                    walks[reader] = steps + 1, a
-                    if steps > MOST_STEPS:
-                        # It reads its own past (or future): everything after (or before) will be reached.
-                        if steps > 2 * MOST_STEPS:
-                            a, b = -INF, INF
-                        else:
-                            a, b = (a, INF) if a > before else (-INF, b)
-                changed = mark(engine, reader, a, b)
-                if changed is not None:
-                    stack.append((reader, *changed))
+            if changed is not None:
+                stack.append((reader, *changed))
+        for ref in dead:
+            if type(readers) is Readers:
+                readers.pop(ref, None)
+            else:
+                cell.readers = None
+
+
+def _push_elsewhere(
+    engine: "Engine",
+    reader: "Cell",
+    lo: float,
+    hi: float,
+    walks: "dict[Cell, tuple[int, float]]",
+    stack: "list[tuple[Cell, float, float]]",
+) -> None:
+    """Mark a reader that reads elsewhere in time, perhaps its own past: such a walk must come to an end."""
+    steps, before = walks.get(reader, (0, lo))
+    walks[reader] = steps + 1, lo
+    if steps > 2 * MOST_STEPS:
+        lo, hi = -INF, INF
+    elif steps > MOST_STEPS:
+        # It reads its own past (or future): everything after (or before) will be reached.
+        lo, hi = (lo, INF) if lo > before else (-INF, hi)
+    changed = mark(engine, reader, lo, hi)
+    if changed is not None:
+        stack.append((reader, *changed))

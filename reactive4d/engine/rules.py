@@ -29,13 +29,13 @@ _START: _Progress = (0, 0, -INF, INF, None)
 def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
     """Answer a cell whose rule is opaque: None when done, [what is missing], or True to try again."""
     segments = cell.segments
-    if cell.shelves is None and len(segments) == 1 and not claim.kept:
+    if cell.shelves is None and len(segments) == 1 and claim.kept is None:
         segment = segments[0]
         reads = segment.reads
         if len(reads) <= FEW and type(reads) is tuple and (not segment.older or engine.revivals <= segment.retired):
             return _simple(engine, cell, t, point, claim, segment)
     progress = _START
-    if claim.kept:
+    if claim.kept is not None:
         kept = claim.kept.pop(cell, None)
         if kept is not None and kept[0] == engine.epoch:
             progress = kept[1]
@@ -52,7 +52,7 @@ def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim:
                 source, at, there = engine.elsewhere(entry, t, point)
                 hit = peek(engine, source, at, there)
                 if hit is None:
-                    claim.kept[cell] = engine.epoch, (refuted, index, lo, hi, axes)
+                    claim.keep(cell, (engine.epoch, (refuted, index, lo, hi, axes)))
                     return [(source, at, there)]
                 hit = engine.brought_back(entry, hit, at, t)
             else:
@@ -61,7 +61,7 @@ def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim:
                     hit = peek(engine, source, t, point)
                     if hit is None:
                         if index or refuted:
-                            claim.kept[cell] = engine.epoch, (refuted, index, lo, hi, axes)
+                            claim.keep(cell, (engine.epoch, (refuted, index, lo, hi, axes)))
                         return [source]
             if hit[3] != stamps[index]:
                 break
@@ -159,7 +159,7 @@ def _run(engine: "Engine", task: Task) -> Any:
     except Cancelled:
         value = Cancelled
     except RecursionError as error:
-        if me.depth > 1:
+        if len(me.stacks) > 1:
             # The stack is full because of where this rule stands: begin again from below.
             raise Suspended(cell, task.t, task.point) from None
         value = failure(error, cell.name, task.t)

@@ -11,9 +11,10 @@ count of edits (`epoch`): whoever read something that was touched starts again.
 
 from typing import TYPE_CHECKING, Any
 
+from reactive4d.engine.express import express
 from reactive4d.engine.formulas import formula
-from reactive4d.engine.frames import CHANGED, CLAIM, Claim, Crowd, CycleFound, Hit, Me, Suspended
-from reactive4d.engine.kinds import FORMULA
+from reactive4d.engine.frames import CHANGED, CLAIM, Claim, Crowd, CycleFound, Hit, Me, Suspended, leave
+from reactive4d.engine.kinds import COMPUTED, FORMULA
 from reactive4d.engine.peeks import peek
 from reactive4d.engine.rules import rule
 from reactive4d.errors import CycleError, hint
@@ -31,93 +32,95 @@ PATIENCE = 3  # restarts after which edits wait
 def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | None", me: Me) -> Hit:
     """Bring one cell that has no clean answer up to date at one point, and with it whatever it needs."""
     t, point = root_t, root_point
-    claim = Claim(t, point, me)
-    claims = [claim]
+    claim = first = Claim(t, point, me)
+    others: list[Claim] = []
     stack: list[Any] = [root]
     fresh: Any = root  # what was looked up just now, in vain
-    me.depth += 1
     me.stacks.append(stack)
     try:
         while True:
-            if engine.owner is not None and engine.owner is not me:
-                # Nothing of what another thread's transaction has set so far is to be read.
-                wait_for_transaction(engine, me)
-                fresh = None
-            if not stack:
-                hit = root.hit
-                if not (hit[0] <= root_t < hit[1] and (hit[5] is None or hit[4] is root_point)):
-                    hit = peek(engine, root, root_t, root_point)
-                    if hit is None:
-                        stack.append(root)
-                        t, point, claim, fresh = root_t, root_point, claims[0], root
-                        continue
-                return hit
-            cell = stack[-1]
-            kind = cell.kind
-            if kind == CLAIM:
-                claim = stack.pop()
-                t, point = claim.t, claim.point
-                continue
-            busy = cell.busy
-            if kind < FORMULA:
-                # It was computed, and has been set to a constant meanwhile.
-                if busy is not None:
-                    _leave(engine, cell, claim)
-                stack.pop()
-                continue
-            if busy is not claim and not (type(busy) is Crowd and claim in busy):
-                if cell is not fresh and peek(engine, cell, t, point) is not None:
-                    stack.pop()
-                    continue
-                fresh = None
-                if busy is None:
+            while stack:
+                if engine.owner is not None and engine.owner is not me:
+                    # Nothing of what another thread's transaction has set so far is to be read.
+                    wait_for_transaction(engine, me)
+                    fresh = None
+                cell = stack[-1]
+                busy = cell.busy
+                if busy is None and cell is fresh:
                     cell.busy = claim
-                elif _occupied(engine, cell, claim):
-                    continue
-            try:
-                need = (formula if kind == FORMULA else rule)(engine, cell, t, point, claim)
-            except Suspended as deep:
-                if me.depth > 1:
-                    raise
-                need = [(deep.cell, deep.t, deep.point)]
-            if need is None:
-                if cell.busy is claim and not engine.waiting:
-                    cell.busy = None
+                elif busy is not claim:
+                    if cell.kind == CLAIM:
+                        claim = stack.pop()
+                        t, point = claim.t, claim.point
+                        continue
+                    if type(busy) is not Crowd or claim not in busy:
+                        if cell is not fresh and peek(engine, cell, t, point) is not None:
+                            stack.pop()
+                            continue
+                        fresh = None
+                        if busy is None:
+                            cell.busy = claim
+                        elif _occupied(engine, cell, claim):
+                            continue
+                fresh = None
+                kind = cell.kind
+                try:
+                    if point is None and express(engine, cell, t, claim, me):
+                        need = None
+                    elif kind == FORMULA:
+                        need = formula(engine, cell, t, point, claim)
+                    elif kind == COMPUTED:
+                        need = rule(engine, cell, t, point, claim)
+                    else:
+                        need = None  # it has been set to a constant meanwhile
+                except Suspended as deep:
+                    if len(me.stacks) > 1:
+                        raise
+                    need = [(deep.cell, deep.t, deep.point)]
+                if need is None:
+                    if cell.busy is claim and not engine.waiting:
+                        cell.busy = None
+                    else:
+                        leave(engine, cell, claim)
+                    stack.pop()
+                elif type(need) is list:
+                    wanted = need[0]
+                    if type(wanted) is tuple:
+                        wanted, at, there = wanted
+                        if at != t or there is not point:
+                            stack.append(claim)
+                            claim = Claim(at, there, me)
+                            others.append(claim)
+                            t, point = at, there
+                    busy = wanted.busy
+                    if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
+                        raise CycleFound(_path(me, wanted, t))
+                    stack.append(wanted)
+                    fresh = _descend(wanted, t, claim, stack)
                 else:
-                    _leave(engine, cell, claim)
-                stack.pop()
-            elif type(need) is list:
-                wanted = need[0]
-                if type(wanted) is tuple:
-                    wanted, at, there = wanted
-                    if at != t or there is not point:
-                        stack.append(claim)
-                        claim = Claim(at, there, me)
-                        claims.append(claim)
-                        t, point = at, there
-                busy = wanted.busy
-                if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
-                    raise CycleFound(_path(me, wanted, t))
-                stack.append(wanted)
-                fresh = _descend(wanted, t, claim, stack)
-            else:
-                claim.restarts += 1
-                if claim.restarts > PATIENCE and not claim.patient:
-                    claim.patient = True
-                    engine.patience += 1
+                    claim.restarts += 1
+                    if claim.restarts == PATIENCE + 1:
+                        engine.patience += 1
+            hit = root.hit
+            if not (hit[0] <= root_t < hit[1] and (hit[5] is None or hit[4] is root_point)):
+                hit = peek(engine, root, root_t, root_point)
+            if hit is not None:
+                return hit
+            stack.append(root)
+            t, point, claim = root_t, root_point, first
     except BaseException:
         for cell in stack:
             if cell.kind != CLAIM:
-                for other in claims:
-                    _leave(engine, cell, other)
+                for claim in (first, *others):
+                    leave(engine, cell, claim)
         raise
     finally:
-        me.depth -= 1
         me.stacks.pop()
-        for other in claims:
-            if other.patient:
-                engine.patience -= 1
-                CHANGED.notify_all()
+        if engine.patience:
+            for claim in (first, *others):
+                if claim.restarts > PATIENCE:
+                    engine.patience -= 1
+                    CHANGED.notify_all()
 
 
 def _descend(cell: "Cell", t: float, claim: Claim, stack: "list[Any]") -> "Cell":
@@ -217,16 +220,3 @@ def wait_for_transaction(engine: "Engine", me: Me) -> None:
             CHANGED.wait()
     finally:
         engine.waiting -= 1
-
-
-def _leave(engine: "Engine", cell: "Cell", claim: Claim) -> None:
-    """Take a claim off a cell."""
-    busy = cell.busy
-    if busy is claim:
-        cell.busy = None
-    elif type(busy) is Crowd and claim in busy:
-        busy.remove(claim)
-        if len(busy) == 1:
-            cell.busy = busy[0]
-    if engine.waiting:
-        CHANGED.notify_all()
