@@ -2,29 +2,27 @@
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping
-from itertools import pairwise
-from typing import Any, Final, cast, final
+from typing import Any, Final, final
 
 import numpy as np
 
 from reactive4d.errors import ShapeError, TimeError, hint, unknown
 from reactive4d.signals.curves import bsplines
 from reactive4d.signals.curves.bernstein import Array
+from reactive4d.signals.curves.borders import EASED, check_key, check_together, in_order, kept, point_of_key
 from reactive4d.signals.curves.controls import Key, key_time
-from reactive4d.signals.curves.extrapolations import EXTRAPOLATIONS
 from reactive4d.signals.curves.interpolations import INTERPOLATIONS, Interpolation, Line
 from reactive4d.signals.curves.kinds import space_of
-from reactive4d.signals.curves.mixtures import Mixture, Mixtures
+from reactive4d.signals.curves.mixtures import Mixtures
 from reactive4d.signals.curves.pieces import STEADY, Piece, Sample
 from reactive4d.signals.curves.samplers import sampler
-from reactive4d.signals.curves.spaces import Colors, Numbers, Space, Vectors, settled
+from reactive4d.signals.curves.spaces import Colors, Numbers, Space
 from reactive4d.signals.curves.spans import inner_piece, outer_piece
 from reactive4d.signals.easings import Ease, Easing, easing
 
 __all__ = ["Curve"]
 
 _DEFAULTS: Final = {"held": "step", "rotation": "slerp"}
-_NOT_OUTSIDE: Final = {"held": ("linear", "cycle_offset"), "color": ("linear", "cycle_offset")}
 
 
 @final
@@ -110,7 +108,7 @@ class Curve:
         degree: int = 3,
         unknowns: type | None = None,
     ) -> None:
-        times, keys = _in_order(points)
+        times, keys = in_order(points)
         raw = [key.value for key in keys]
         known = [(t, value) for t, value in zip(times, raw, strict=True) if not _is_unknown(value, unknowns)]
         space: Space | None = None
@@ -125,7 +123,7 @@ class Curve:
         if type(degree) is not int or degree < 1:
             raise ShapeError(f"degree: expected a whole number, at least 1, got {degree!r}")
         rule = INTERPOLATIONS[name]
-        _check_together(space, rule, (before, after))
+        check_together(space, rule, (before, after))
         put = object.__setattr__
         put(self, "space", space)
         put(self, "interpolation", name)
@@ -136,10 +134,8 @@ class Curve:
         put(self, "unknowns", unknowns)
         put(self, "rule", rule)
         if not rule.eased and self.ease is not STEADY:
-            raise hint(ShapeError(f"an ease has no effect on {name!r}"), _EASED)
-        self._settle(
-            times, list(map(_kept, keys)), [self._point(t, value) for t, value in zip(times, raw, strict=True)]
-        )
+            raise hint(ShapeError(f"an ease has no effect on {name!r}"), EASED)
+        self._settle(times, list(map(kept, keys)), [self._point(t, value) for t, value in zip(times, raw, strict=True)])
         for t, key in zip(times, keys, strict=True):
             self._check(t, key)
 
@@ -172,40 +168,10 @@ class Curve:
         return min(self.degree, len(self.times) - 1)
 
     def _point(self, t: float, value: Any) -> Any:
-        try:
-            point = self.space.point(value)
-        except ShapeError as error:
-            raise _at(error, t) from None
-        if self.interpolation != "step" and isinstance(self.space, Numbers | Vectors) and not np.isfinite(point).all():
-            error = ShapeError(f"the key at {t!r} s: {value!r} is not finite")
-            raise hint(error, "only interpolation='step' takes infinite values")
-        return point
+        return point_of_key(self.space, self.rule, t, value=value)
 
     def _check(self, t: float, key: Key) -> None:
-        """Refuse what a key says and its curve does not hear."""
-        rule, name = self.rule, self.interpolation
-        if key.is_bare:
-            return
-        if key.ease is not None and not rule.eased and easing(key.ease) is not STEADY:
-            raise hint(_at(ShapeError(f"an ease has no effect on {name!r}"), t), _EASED)
-        if not rule.tensions and (key.tension or key.continuity or key.bias):
-            error = _at(ShapeError(f"tension, continuity and bias have no effect on {name!r}"), t)
-            raise hint(error, "interpolation='tcb' has them")
-        for side, handle in (("left", key.left), ("right", key.right)):
-            if handle is None:
-                continue
-            if not rule.handles:
-                error = _at(ShapeError(f"handles have no effect on {name!r}"), t)
-                raise hint(error, "interpolation='bezier' and 'hermite' have them")
-            try:
-                offset = self.space.offset(handle[1])
-                parts = [term.point for term in offset.terms] if isinstance(offset, Mixture) else [offset]
-                finite = all(np.isfinite(part).all() for part in parts)
-            except ShapeError as error:
-                raise _at(error, t, f"the {side} handle") from None
-            if not finite or (name == "hermite" and handle[0] == 0.0):
-                error = _at(ShapeError(f"the {side} handle {handle!r} has no finite slope dv / dt"), t)
-                raise hint(error, "a Hermite tangent is the handle's dv / dt")
+        check_key(self.space, self.rule, t, key=key)
 
     # ---- asking ----
 
@@ -272,7 +238,7 @@ class Curve:
             return self
         if self.is_live or _is_unknown(key.value, self.unknowns):
             return self._restated(dict(zip(self.times, self.keys, strict=True)) | {t: key})
-        key, point = _kept(key), self._point(t, key.value)
+        key, point = kept(key), self._point(t, key.value)
         self._check(t, key)
         times, keys, values = list(self.times), list(self.keys), list(self.values)
         if there:
@@ -483,7 +449,6 @@ class Curve:
 
 
 _SETTINGS: Final = ("interpolation", "ease", "before", "after", "degree", "unknowns")
-_EASED: Final = "linear, slerp, hermite, catmull_rom and tcb take an ease; bezier has handles for that"
 
 
 def _restore(times: Any, keys: Any, settings: dict[str, Any]) -> Curve:
@@ -492,52 +457,3 @@ def _restore(times: Any, keys: Any, settings: dict[str, Any]) -> Curve:
 
 def _is_unknown(value: Any, unknowns: type | None) -> bool:
     return unknowns is not None and isinstance(value, unknowns)
-
-
-def _kept(key: Key) -> Key:
-    """A key whose value cannot be changed by whoever gave it."""
-    value = settled(key.value)
-    return key if value is key.value else key.with_value(value)
-
-
-def _check_together(space: Space, rule: Interpolation, outside: tuple[str, str]) -> None:
-    """Refuse what this kind of values cannot do."""
-    kind, name = space.kind, rule.name
-    usable = [other for other in INTERPOLATIONS.values() if kind in other.kinds]
-    refused = _NOT_OUTSIDE.get(kind, ())
-    if isinstance(space, Mixtures):
-        usable = [other for other in usable if not other.measures and not (kind == "rotation" and other.reach)]
-        refused = ("linear", "cycle_offset") if kind == "rotation" else refused
-    alive = ", some of them alive" if isinstance(space, Mixtures) else ""
-    if rule not in usable:
-        error = ShapeError(f"interpolation {name!r} is not for values of kind {kind!r}{alive}")
-        raise hint(error, f"these are: {', '.join(sorted(other.name for other in usable))}")
-    for extrapolation in outside:
-        if extrapolation not in EXTRAPOLATIONS:
-            raise unknown(extrapolation, EXTRAPOLATIONS, what="extrapolation")
-        if extrapolation in refused:
-            error = ShapeError(f"extrapolation {extrapolation!r} is not for values of kind {kind!r}{alive}")
-            raise hint(error, "hold, cycle and oscillate are")
-
-
-def _in_order(points: Mapping[Any, Any] | Iterable[tuple[Any, Any]]) -> tuple[list[float], list[Key]]:
-    try:
-        line = cast(Any, points.items() if isinstance(points, Mapping) else points)
-        pairs: list[tuple[Any, Any]] = [(t, value) for t, value in line]
-    except (TypeError, ValueError):
-        error = ShapeError(f"expected a mapping of times to values, got {points!r}")
-        raise hint(error, "keys({0: a, 1.5: b})") from None
-    if not pairs:
-        raise hint(TimeError("a curve needs at least one key"), "keys({0: value}) holds one value forever")
-    pairs = sorted(((key_time(t), value) for t, value in pairs), key=lambda pair: pair[0])
-    for (t, _), (u, _) in pairwise(pairs):
-        if t == u:
-            raise hint(TimeError(f"there are two keys at {t!r} s"), "a jump needs two times: a little before, and then")
-    return [t for t, _ in pairs], [value if isinstance(value, Key) else Key(value) for _, value in pairs]
-
-
-def _at(error: ShapeError, t: float, what: str = "") -> ShapeError:
-    located = ShapeError(f"the key at {t!r} s{', ' + what if what else ''}: {error}")
-    for note in getattr(error, "__notes__", ()):
-        located.add_note(note)
-    return located
