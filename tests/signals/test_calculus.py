@@ -359,3 +359,11 @@ def test_remembered_integrals_are_those_that_would_be_computed(
                     if span.start <= u < span.stop and abs(u) < INF:
                         assert engine.naive(x, u) == found, (t, u)
     engine.check(derived)
+
+
+def test_slopes_hold_up_to_where_a_cycle_turns_over_a_key() -> None:
+    """The float before a mirrored key folds onto the key itself, and has the slope of what comes next."""
+    slope = Slope(Curve({0.0: 1.0, 1.0: 1.0, 4.0: 2.0}, before="oscillate"))
+    _, hi, value = slope.sample(-2.0)
+    assert value == pytest.approx(-1 / 3)
+    assert slope.sample(math.nextafter(hi, -INF))[2] == value

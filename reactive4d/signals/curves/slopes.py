@@ -145,6 +145,8 @@ class Slope:
             value = freeze(-value)
         if hi <= math.nextafter(inner, INF):
             return t, math.nextafter(t, INF), value
+        if back:  # folded times were taken one float earlier
+            lo, hi = math.nextafter(lo, INF), math.nextafter(hi, INF)
         start, stop = unfold((lo, hi), t, first, last, mirrored=mirrored)
         return start, stop, value
 
