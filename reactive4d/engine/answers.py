@@ -106,14 +106,12 @@ def renew(engine: "Engine", segment: Segment, value: Any, reads: tuple[Any, ...]
     segment.reads = reads
     segment.stamps = stamps
     segment.clean = True
-    if type(value) is float:
-        if before is value or (type(before) is float and _equal(engine, before, value)):
-            return True
+    if type(value) is float and type(before) is float and value != before and value == value:
         engine.bytes += CONTENT + 24
+    elif before is value or _equal(engine, before, value):
+        return True
     else:
-        if before is value or _equal(engine, before, value):
-            return True
-        engine.bytes += CONTENT + engine.measure(value)
+        engine.bytes += CONTENT + (24 if type(value) is float else engine.measure(value))
     segment.value = value
     segment.stamp = engine.stamp()
     return False

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["express"]
 
 INF = float("inf")
+FEW = 8  # more are gathered bit by bit
 
 acquire, release = LOCK.acquire, LOCK.release
 
@@ -41,8 +42,9 @@ def express(engine: "Engine", cell: "Cell", t: float, claim: Claim | None, me: M
         return False
     kind = cell.kind
     reads = segment.reads
-    if type(reads) is not tuple or reads is not (cell.inputs if kind == FORMULA else cell.linked):
+    if len(reads) > FEW or type(reads) is not tuple or reads is not (cell.inputs if kind == FORMULA else cell.linked):
         return False
+    is_rule = kind != FORMULA
     lo, hi = -INF, INF
     values: list[Any] = []
     stamps: list[int] = []
@@ -64,60 +66,60 @@ def express(engine: "Engine", cell: "Cell", t: float, claim: Claim | None, me: M
         values.append(value)
         stamps.append(stamp)
     these = tuple(stamps)
-    if these == segment.stamps:
-        return False
-    if kind == FORMULA and (lo > start or hi < stop):
+    if these == segment.stamps or (not is_rule and (lo > start or hi < stop)):
         return False
     own = claim is None
     if claim is None:
         cell.busy = claim = Claim(t, None, me)
         me.stacks.append([cell])
+        hits.attended += 1
     epoch = engine.epoch
     runs = cell.runs
+    cell.runs = runs + 1
     started = 0.0 if runs & 15 else perf_counter()
-    frame = outer = me.frame
-    if kind != FORMULA:
+    outer = me.frame
+    if is_rule:
         frame = me.frame = Task(cell, t, None, me, epoch)
         frame.nested = 0.0 if started else -1.0
-    hits.attended += 1
+    else:
+        frame = None
     release()
     try:
-        value = cell.function(*values) if kind == FORMULA else cell.rule()
+        value = cell.function(*values) if frame is None else cell.rule()
         if type(value) is not float:
             value = engine.freeze(value)
         if started:
-            engine.timed(cell, perf_counter() - started - (frame.nested if kind != FORMULA else 0.0))
+            engine.timed(cell, perf_counter() - started - (0.0 if frame is None else frame.nested))
     except (Cancelled, Suspended, RecursionError):
         return False
     except Exception as error:  # noqa: BLE001  an exception is an answer
-        passed = frame.raised if kind != FORMULA else None
+        passed = None if frame is None else frame.raised
         value = failure(error, cell.name, t, passed[1] if passed is not None and passed[0] is error else None)
     finally:
         acquire()
-        hits.attended -= 1
         me.frame = outer
         if own:
+            hits.attended -= 1
             me.stacks.pop()
             if cell.busy is claim and not engine.waiting:
                 cell.busy = None
             else:
                 leave(engine, cell, claim)
-    cell.runs = runs + 1
     if epoch != engine.epoch:
         return False
-    if kind != FORMULA:
+    if frame is not None:
         deps = frame.deps
-        lo, hi, these = frame.lo, frame.hi, tuple(deps.values())
+        lo, hi = frame.lo, frame.hi
         if frame.axes is not None or frame.mapped or lo > start or hi < stop or tuple(deps) != reads:
             new = MappedReads(deps) if frame.mapped else tuple(deps)
             table = cell if frame.axes is None else table_for(cell, frame.axes, None)
-            store(engine, cell, table, t, lo, hi, None, value, new, these)
+            store(engine, cell, table, t, lo, hi, None, value, new, tuple(deps.values()))
             return True
     if cell.segments is not segments or len(segments) != 1 or segments[0] is not segment or segment.clean:
         store(engine, cell, cell, t, lo, hi, None, value, reads, these)
         return True
     engine.clock = segment.touched = engine.clock + 1
     renew(engine, segment, value, reads, these)
-    if type(value) is not Failure and engine.owner is None:
+    if engine.owner is None and type(value) is not Failure:
         cell.hit = (start, stop, segment.value, segment.stamp, None, None)
     return True
