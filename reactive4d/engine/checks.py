@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.evictions import tables
 from reactive4d.engine.links import Readers
-from reactive4d.engine.segments import covering
+from reactive4d.engine.segments import ELSEWHERE, covering
+from reactive4d.engine.shelves import ShelfTable
 from reactive4d.engine.stamps import piece
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def reached(cells: "Iterable[Cell]") -> "list[Cell]":
         for table in tables(cell):
             for segment in table.segments:
                 entries.extend(segment.reads)
-        todo.extend(entry[0] if type(entry) is tuple else entry for entry in entries)
+        todo.extend(entry[0] if type(entry) is ELSEWHERE else entry for entry in entries)
     return list(found)
 
 
@@ -39,7 +40,7 @@ def check(engine: "Engine", cells: "Iterable[Cell]") -> None:
     for cell in reached(cells):
         _check_hit(cell)
         for table in tables(cell):
-            if cell.shelves is not None and table is not cell:
+            if cell.shelves is not None and isinstance(table, ShelfTable):
                 cell.shelves.settle(table)
             assert len(table.starts) == len(table.segments), f"{cell.name}: starts and segments differ in number"
             end = -float("inf")
@@ -62,19 +63,22 @@ def _check_hit(cell: "Cell") -> None:
         return
     if axes is None:
         segment = covering(cell, lo)
-        assert segment is not None and segment.clean and segment.stamp == stamp, f"{cell.name}: hands out what is stale"
+        assert segment is not None, f"{cell.name}: hands out what it does not remember"
+        assert segment.clean, f"{cell.name}: hands out what is in check"
+        assert segment.stamp == stamp, f"{cell.name}: hands out what is stale"
 
 
 def _check_clean(engine: "Engine", cell: "Cell", segment: "Segment", *, is_main: bool) -> None:
     for entry, stamp in zip(segment.reads, segment.stamps, strict=True):
-        source = entry[0] if type(entry) is tuple else entry
+        source = entry[0] if type(entry) is ELSEWHERE else entry
         if not source.unchanging:
             readers = source.readers
             known = readers is cell.ref or (type(readers) is Readers and cell.ref in readers)
-            assert known and cell.ref is not None, f"{cell.name} reads {source.name}, which does not know"
-        if type(entry) is tuple and entry[2] is not None:
+            assert cell.ref is not None, f"{cell.name} reads {source.name}, and nothing can refer to it"
+            assert known, f"{cell.name} reads {source.name}, which does not know"
+        if type(entry) is ELSEWHERE and entry[2] is not None:
             continue
-        time_map = entry[1] if type(entry) is tuple else None
+        time_map = entry[1] if type(entry) is ELSEWHERE else None
         for t in _probes(segment):
             at = t if time_map is None else min(time_map.forward(t), float_info.max)
             if source.kind == 0:
@@ -82,9 +86,8 @@ def _check_clean(engine: "Engine", cell: "Cell", segment: "Segment", *, is_main:
                 assert found == stamp, f"{cell.name} {segment} read {source.name} at {at} with {stamp}, it has {found}"
             elif source.kind != 1 and is_main:
                 below = covering(source, at)
-                assert below is not None and below.clean, (
-                    f"{cell.name} {segment} is clean, {source.name} is not at {at}"
-                )
+                assert below is not None, f"{cell.name} {segment} is clean, {source.name} remembers nothing at {at}"
+                assert below.clean, f"{cell.name} {segment} is clean, {source.name} is not at {at}"
                 assert below.stamp == stamp, (
                     f"{cell.name} {segment} read {source.name} with {stamp}, it has {below.stamp}"
                 )

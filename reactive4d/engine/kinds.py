@@ -1,4 +1,4 @@
-"""How a cell answers: from a content, from the point, from declared inputs, or by a rule. Larger than a source: computed."""
+"""How a cell answers: from a content, from the point, from declared inputs, or by a rule."""
 
 from typing import Final
 

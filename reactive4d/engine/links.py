@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.maps import Affine, Fixed, TimeMap
-from reactive4d.engine.segments import MappedReads
+from reactive4d.engine.segments import ELSEWHERE, MappedReads
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
@@ -46,7 +46,7 @@ def _joined(old: Any, new: TimeMap | None) -> Any:
     """The maps of a link, with one more: None stands for the identity alone."""
     if old is ANYWHERE or (old is None and new is None):
         return old
-    maps: tuple[Any, ...] = old if isinstance(old, tuple) else (None,)
+    maps: tuple[Any, ...] = (None,) if old is None else old
     if new in maps:
         return old
     return (*maps, new) if len(maps) < MOST_MAPS else ANYWHERE
@@ -86,7 +86,7 @@ def link(cell: "Cell", reads: tuple[Any, ...]) -> None:
         ref = cell.ref = CellRef(cell)
     if type(reads) is MappedReads:
         for entry in reads:
-            source, time_map = (entry[0], entry[1]) if type(entry) is tuple else (entry, None)
+            source, time_map = (entry[0], entry[1]) if type(entry) is ELSEWHERE else (entry, None)
             if not source.unchanging:
                 _add(source, ref, time_map)
         return
@@ -103,9 +103,9 @@ def link(cell: "Cell", reads: tuple[Any, ...]) -> None:
 def unlink(cell: "Cell", old: tuple[Any, ...], new: tuple[Any, ...]) -> None:
     """Drop the links from what `old` names and `new` does not."""
     ref = cell.ref
-    kept = {entry[0] if type(entry) is tuple else entry for entry in new}
+    kept = {entry[0] if type(entry) is ELSEWHERE else entry for entry in new}
     for entry in old:
-        source = entry[0] if type(entry) is tuple else entry
+        source = entry[0] if type(entry) is ELSEWHERE else entry
         if source in kept:
             continue
         readers = source.readers

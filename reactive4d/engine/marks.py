@@ -48,36 +48,54 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
         if readers is None:
             continue
         dead: list[Any] = []
-        for ref, maps in readers.items() if type(readers) is Readers else ((readers, None),):
+        entries = readers.items() if type(readers) is Readers else ((readers, None),)
+        for ref, maps in entries:
             reader = ref()
             if reader is None:
                 dead.append(ref)
-                continue
-            if maps is not None:
+            elif maps is None:
+                _push_here(engine, reader, lo, hi, stack)
+            else:
                 for a, b in preimages(maps, lo, hi):
                     _push_elsewhere(engine, reader, a, b, walks, stack)
-                continue
-            segments = reader.segments
-            if len(segments) == 1 and reader.shelves is None:
-                # The commonest of cases, at once: one answer, over no more than what is touched.
-                segment = segments[0]
-                if not segment.clean:
-                    continue
-                if lo <= segment.lo and segment.hi <= hi:
-                    segment.clean = False
-                    reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
-                    if engine.logs:
-                        engine.emit("marked", reader, segment.lo, segment.hi)
-                    stack.append((reader, segment.lo, segment.hi))
-                    continue
-            changed = mark(engine, reader, lo, hi)
-            if changed is not None:
-                stack.append((reader, *changed))
         for ref in dead:
             if type(readers) is Readers:
                 readers.pop(ref, None)
             else:
                 cell.readers = None
+
+
+def _push_here(
+    engine: "Engine", reader: "Cell", lo: float, hi: float, stack: "list[tuple[Cell, float, float]]"
+) -> None:
+    """Mark a reader that reads at its own time; along a chain, where each has one reader, at once to its end."""
+    while True:
+        segments = reader.segments
+        if len(segments) != 1 or reader.shelves is not None:
+            break
+        segment = segments[0]
+        if not segment.clean:
+            return
+        if segment.lo < lo or hi < segment.hi:
+            break
+        segment.clean = False
+        reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
+        if engine.logs:
+            engine.emit("marked", reader, segment.lo, segment.hi)
+        readers = reader.readers
+        if readers is None:
+            return
+        lo, hi = segment.lo, segment.hi
+        if type(readers) is Readers:
+            stack.append((reader, lo, hi))
+            return
+        above = readers()
+        if above is None:
+            return
+        reader = above
+    changed = mark(engine, reader, lo, hi)
+    if changed is not None:
+        stack.append((reader, *changed))
 
 
 def _push_elsewhere(

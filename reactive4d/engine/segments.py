@@ -11,10 +11,13 @@ Invariants, which `checks.check` verifies:
 from bisect import bisect_right
 from typing import Any
 
-__all__ = ["EMPTY", "Content", "MappedReads", "Segment", "Table", "content", "covering", "flip", "split"]
+__all__ = ["ELSEWHERE", "EMPTY", "Content", "MappedReads", "Segment", "Table", "content", "covering", "flip", "split"]
 
 INF = float("inf")
 EMPTY: Any = ()
+
+# The type of an entry that was read elsewhere, (cell, map, overrides); cells themselves are the other entries.
+ELSEWHERE: Any = tuple
 
 # value, stamp, reads, stamps of the reads
 Content = tuple[Any, int, tuple[Any, ...], tuple[int, ...]]

@@ -125,19 +125,17 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
 
 def _descend(cell: "Cell", t: float, claim: Claim, stack: "list[Any]") -> "Cell":
     """Go down a chain at once: where the first thing that was read is to be checked too, that comes first."""
-    while cell.kind >= FORMULA and cell.busy is None and cell.shelves is None:
-        segments = cell.segments
-        if len(segments) != 1:
-            break
-        segment = segments[0]
-        if segment.clean or not segment.reads or not segment.lo <= t < segment.hi:
-            break
+    if cell.kind < FORMULA or cell.busy is not None or cell.shelves is not None or len(cell.segments) != 1:
+        return cell
+    segment = cell.segments[0]
+    while not segment.clean and segment.lo <= t < segment.hi and segment.reads:
         first = segment.reads[0]
         if type(first) is tuple or first.kind < FORMULA or first.busy is not None or first.shelves is not None:
             break
-        below = first.segments
-        if len(below) != 1 or below[0].clean:
+        segments = first.segments
+        if len(segments) != 1 or segments[0].clean:
             break
+        segment = segments[0]
         cell.busy = claim
         stack.append(first)
         cell = first
