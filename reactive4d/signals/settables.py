@@ -49,6 +49,7 @@ class Settable(Signal[T], Source):
         self.inputs = ()
         if self.own is not None:
             self.own.stamps = self.stamps
+            self.own.hit = NEVER
 
     def _contents(self) -> Contents:
         own = self.own
