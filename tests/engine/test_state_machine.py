@@ -9,7 +9,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 from models import answer, naive_answer, same_answer
-from worlds import BUDGETS, MismatchError, Seeded, World, fuzz
+from worlds import BUDGETS, MismatchError, Seeded, World, fuzz, revisit
 
 
 class Drawn:
@@ -88,6 +88,11 @@ def test_whatever_is_edited_the_answers_are_those_of_an_evaluator_that_remembers
 def test_long_histories_of_small_worlds_keep_answering_right(block: int) -> None:
     """Many edits, undone and done again, of few cells: what was remembered several edits ago comes back."""
     fuzz(range(10_000 + block * 60, 10_000 + block * 60 + 60), steps=150, cells=3)
+
+
+def test_contents_that_come_back_bring_their_answers_back() -> None:
+    """Contract 13 at random: many undone and redone edits of one source, asked here and there in between."""
+    revisit(range(400))
 
 
 def _ask_at_random(world: World, seed: int, failures: list[BaseException], start: threading.Barrier) -> None:

@@ -4,6 +4,7 @@ A world is driven by choices, so that Hypothesis (which shrinks them) and a seed
 drive it.
 """
 
+import contextlib
 import math
 import random
 from collections.abc import Callable, Sequence
@@ -23,11 +24,15 @@ from models import (
 
 from reactive4d.engine import Affine, Axis, Cell, Computed, Fixed, Formula, Source, moment, narrow
 
-__all__ = ["Choices", "MismatchError", "Seeded", "World", "fuzz"]
+__all__ = ["Choices", "MismatchError", "Seeded", "World", "fuzz", "revisit"]
 
 
 class MismatchError(AssertionError):
     """The engine says something else than the naive evaluator, or than it promised."""
+
+
+class RunawayError(BaseException):
+    """A rule ran so often for one question that it will run for ever; no rule may catch it."""
 
 
 class Choices(Protocol):
@@ -133,6 +138,9 @@ class World:
         self.readable = list(self.cells)
         self.rules: list[Cell] = []
         self.contents: list[tuple[Source, Any]] = []
+        self.logs = contextlib.ExitStack()
+        self.limit = math.inf  # evaluations that one step may take
+        self.spent = 0
         for i in range(2 + self.pick(range(cells))):
             cell = self.make(f"x{i}")
             self.rules.append(cell)
@@ -186,11 +194,22 @@ class World:
         inputs = [self.pick(recent) for _ in range(1 + self.choices.number(3))]
         how = self.choices.number(5)
         if how == 0:
-            return Formula(self.pick(FUNCTIONS), *inputs, name=name, engine=self.engine)
+            return Formula(self.counted(self.pick(FUNCTIONS)), *inputs, name=name, engine=self.engine)
         if how == 1:
             maps = tuple(self.pick(MAPS) if self.chance(2) else None for _ in inputs)
-            return Formula(self.pick(FUNCTIONS), *inputs, maps=maps, name=name, engine=self.engine)
-        return Computed(self.rule(inputs, recent, past=mine), name=name, engine=self.engine)
+            return Formula(self.counted(self.pick(FUNCTIONS)), *inputs, maps=maps, name=name, engine=self.engine)
+        return Computed(self.counted(self.rule(inputs, recent, past=mine)), name=name, engine=self.engine)
+
+    def counted(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """The same function, which gives up where an engine runs it for ever."""
+
+        def run(*values: Any) -> Any:
+            self.spent += 1
+            if self.spent > self.limit:
+                raise RunawayError
+            return function(*values)
+
+        return run
 
     def read(self, cell: Cell) -> Callable[[], Any]:
         """One way of reading a cell."""
@@ -371,8 +390,10 @@ class World:
         expected = naive_answer(cell, t, **given)
         inner = [s for s in GRID if lo < s < hi]
         samples = [lo, INF if hi == INF else math.nextafter(hi, -INF)]
+        # Drawn always: the interval depends on what was evicted, and that on how long things took.
+        first, second = self.choices.number(64), self.choices.number(64)
         if inner:
-            samples += [self.pick(inner), self.pick(inner) + 0.25]
+            samples += [inner[first % len(inner)], inner[second % len(inner)] + 0.25]
         for s in samples:
             if lo <= s < hi:
                 found = naive_answer(cell, s, **given)
@@ -418,6 +439,7 @@ class World:
 
     def step(self) -> str:
         """Anything."""
+        self.spent = 0
         how = self.choices.number(20)
         if how < 11:
             return self.ask()
@@ -434,10 +456,19 @@ class World:
         self.engine.check(self.cells + self.rules)
 
 
-def fuzz(seeds: Sequence[int], *, steps: int = 40, check: bool = True, cells: int = 7) -> None:
+def fuzz(
+    seeds: Sequence[int],
+    *,
+    steps: int = 40,
+    check: bool = True,
+    cells: int = 7,
+    prepare: Callable[[World], None] | None = None,
+) -> None:
     """Worlds from seeds, each for some steps; raises what the first mismatch raises, with its seed."""
     for seed in seeds:
         world = World(Seeded(seed), cells=cells)
+        if prepare is not None:
+            prepare(world)
         done: list[str] = []
         try:
             for _ in range(steps):
@@ -447,3 +478,32 @@ def fuzz(seeds: Sequence[int], *, steps: int = 40, check: bool = True, cells: in
         except Exception as error:
             error.add_note(f"seed {seed}, after {done}")
             raise
+        except RunawayError:
+            raise MismatchError(f"seed {seed}, after {done}: a rule is run for ever") from None
+        finally:
+            world.logs.close()
+
+
+def revisit(seeds: Sequence[int], *, steps: int = 40) -> None:
+    """
+    Few contents that come back over and over, asked at few times: what was remembered several edits ago holds again.
+
+        s --> f --> g        s --1 s later--> h
+    """
+    for seed in seeds:
+        draw = random.Random(seed)
+        engine = make_engine()
+        contents = [tuple((t, float(draw.randrange(3))) for t in (0.0, 1.0, 2.0, 3.0)) for _ in range(3)]
+        contents.append(((0.0, 1.0),))
+        s = StepSource(contents[0], name="s", engine=engine)
+        f = Formula(_first, s, name="f")
+        g = Computed(lambda f=f: _clamp(f.now()), name="g", engine=engine)
+        h = Formula(_add, s, g, maps=(Affine(1.0, -1.0), None), name="h")
+        for step in range(steps):
+            if draw.random() < 0.35:
+                s.set_content(draw.choice(contents))
+            cell, t = draw.choice([f, g, h]), draw.choice([0.5, 1.5, 2.5, 3.5])
+            got, expected = answer(cell, t), naive_answer(cell, t)
+            if not same_answer(got, expected):
+                raise MismatchError(f"seed {seed}, step {step}: {cell.name} at {t}: got {got}, expected {expected}")
+            engine.check([f, g, h])
