@@ -231,14 +231,11 @@ class Cell(Hits):
         return hit[2]
 
     def __repr__(self) -> str:
-        tables: list[Any] = [self]
-        if self.shelves is not None:
-            tables.extend(table for shelf in self.shelves.shelves for table in list(shelf.tables.values()))
-        clean = [
-            segment.clean and (table is self or table.seen == self.shelves.count)
-            for table in tables
-            for segment in list(table.segments)
-        ]
+        clean = [segment.clean for segment in list(self.segments)]
+        shelves = self.shelves
+        if shelves is not None:
+            tables = [table for shelf in shelves.shelves for table in list(shelf.tables.values())]
+            clean += [s.clean and table.seen == shelves.count for table in tables for s in list(table.segments)]
         state = "never asked" if not clean else "up to date" if all(clean) else "to check"
         return f"<{type(self).__name__} {self.name}: {state}>"
 
@@ -284,6 +281,10 @@ class Source(Cell):
     def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
         """The intervals over which two contents may say something different; none if they are equal."""
         return [] if self.engine.same(old, new) else [(-INF, INF)]
+
+    def refers(self, content: Any) -> bool:
+        """Whether a content is a reference, so that an equal one is another one all the same."""
+        return False
 
     def adopt(self) -> None:
         """Called when the content was set, the lock held: a source whose content may be alive changes its kind here."""
@@ -407,7 +408,7 @@ def _frame(what: str) -> Task:
 
 
 def moment() -> float:
-    """The asked time, inside of an evaluation, without making the answer depend on it: whoever uses it must `narrow`."""
+    """The asked time, inside of an evaluation; the answer does not depend on it, so whoever uses it must `narrow`."""
     return _frame("moment()").t
 
 

@@ -46,15 +46,16 @@ def set_content(source: "Source", content: Any) -> None:
         _enter(engine, f"{source.name} is set")
         old, stamps = source.content, source.stamps
         spans = source.difference(old, content)
-        if not spans:
+        if not spans and (content is old or not source.refers(content)):
             return
-        new = _remembered(source, content)
-        if new is None:
-            new = engine.stamp()
-        else:
+        new = _remembered(source, content) if spans else None
+        if new is not None:
             engine.revivals += 1
-        for lo, hi in spans:
-            stamps = assigned(stamps, lo, hi, new)
+        elif spans:
+            new = engine.stamp()
+        if new is not None:
+            for lo, hi in spans:
+                stamps = assigned(stamps, lo, hi, new)
         if engine.owner is not None:
             engine.undo.append((source, old, source.stamps, spans))
         _keep(source)

@@ -7,6 +7,7 @@ import numpy as np
 
 from reactive4d.arrays import freeze
 from reactive4d.engine import Axis, Engine, Source
+from reactive4d.engine.links import link
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.signals.settables import Settable
 from reactive4d.signals.facade import Signal
@@ -77,10 +78,24 @@ class Variable(Settable[T], Generic[T]):
         """What was set: the constant or the signal."""
         return self.content
 
+    def refers(self, content: Any) -> bool:
+        """A signal is a reference."""
+        return isinstance(content, Signal)
+
+    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
+        """Where two contents may say something different: keys over keys differ only where their curves do."""
+        if isinstance(old, Signal) and isinstance(new, Signal) and old is not new:
+            before, after = getattr(old, "curve", None), getattr(new, "curve", None)
+            if before is not None and after is not None and not before.is_live and not after.is_live:
+                return before.difference(after)
+        return super().difference(old, new)
+
     def adopt(self) -> None:
         """A constant makes it a source, a signal a formula that passes that one on."""
         if isinstance(self.content, Signal):
             self._be_formula(self.content)
+            # What is remembered outside of the spans that differ stays clean, and must hear of edits of the new one.
+            link(self, self.inputs)
         else:
             self._be_source()
 
