@@ -67,6 +67,8 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                 try:
                     if point is None and express(engine, cell, t, claim, me):
                         need = None
+                    elif engine.owner is not None and engine.owner is not me:
+                        continue  # a transaction began while the function ran
                     elif kind == FORMULA:
                         need = formula(engine, cell, t, point, claim)
                     elif kind == COMPUTED:
