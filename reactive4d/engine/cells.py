@@ -158,7 +158,15 @@ class Cell(Hits):
         return hit
 
     def valid(self, t: float, **parameters: Any) -> Interval:
-        """An interval round `t` over which the answer holds: sound, but not always the largest."""
+        """An interval round `t` over which the answer holds: sound, but not always the largest.
+
+        Raises:
+            EvaluationError: inside of an evaluation, whose answer must not depend on what is remembered.
+            Exception: whatever `at` raises for this point, but for errors of rules, which are answers that hold as well.
+        """
+        if here.me.frame is not None:
+            error = EvaluationError(f"{self.name}.valid(…) inside of the evaluation of {here.me.frame.cell.name}")
+            raise hint(error, "an answer holds where what it read by now() and at(t) holds; nothing need be asked for it")
         hit = self._hit_at(as_time(t, self), parameters)
         return Interval(hit[0], hit[1])
 
