@@ -8,7 +8,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from models import INF, Case, Clock, LinearSource, StepSource, answer, make_engine, naive_answer, same_answer
+from models import (
+    INF,
+    Background,
+    Case,
+    Clock,
+    Gate,
+    LinearSource,
+    StepSource,
+    answer,
+    make_engine,
+    naive_answer,
+    same_answer,
+)
 
 from reactive4d.engine import Affine, Axis, Cell, Computed, Fixed, Formula, Source, moment, narrow
 
@@ -265,3 +277,38 @@ def test_the_largest_float_is_a_time_like_any_other(cached: Case) -> None:
         x = cached.formula("x", lambda v: v, source, maps=(Affine(2.0, 0.0),))
         agree(x, sys.float_info.max, INF, -sys.float_info.max, -INF, 0.25)
         cached.engine.check([x])
+
+
+@pytest.mark.parametrize("kind", ["formula", "rule"])
+def test_an_update_under_way_reads_nothing_of_an_open_transaction(cached: Case, kind: str) -> None:
+    """
+    As before, where x was answered once already: a and b are set while its function runs again, one after the other.
+
+        a, b --> x --> view
+    """
+    a, b = cached.source(0, "a"), cached.source(0, "b")
+    gate = Gate()
+    gated: list[bool] = []
+
+    def function(u: int, v: int) -> tuple[int, int]:
+        if gated and gated.pop():
+            gate.pass_through()
+        return u, v
+
+    if kind == "formula":
+        x: Cell = cached.formula("x", function, a, b)
+    else:
+        x = cached.rule("x", lambda: function(a.now(), b.now()))
+    view = cached.formula("view", lambda v: v, x)
+    assert cached.ask(view) == (0, 0)
+    a.set_content(1)
+    gated.append(True)
+    thread = Background(lambda: cached.ask(view))
+    gate.wait()
+    with cached.engine.transaction():
+        a.set_content(2)
+        gate.open()
+        thread.wait_until(lambda: cached.engine.waiting)
+        b.set_content(2)
+    assert thread.result() == (2, 2)
+    assert cached.ask(view) == (2, 2)
