@@ -1,4 +1,4 @@
-"""Remembering an answer: clipped to where nothing is known yet, cut off if it is the same, merged with its neighbour."""
+"""Remembering an answer: clipped to where nothing is known yet, cut off if it is the same, merged with neighbours."""
 
 from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
@@ -34,7 +34,7 @@ def publish(engine: "Engine", cell: "Cell", segment: Segment, point: "Point | No
 def store(
     engine: "Engine",
     cell: "Cell",
-    table: Table,
+    table: Any,  # the cell itself, or one of the tables on its shelves
     t: float,
     lo: float,
     hi: float,
@@ -43,9 +43,9 @@ def store(
     reads: tuple[Any, ...],
     stamps: tuple[int, ...],
 ) -> None:
-    """Remember an answer: clip it to the gap, or to the segment in check that it replaces; cut off if it is the same."""
-    segments = table.segments
-    linked = cell.linked
+    """Remember an answer: clip it to the gap, or to the segment in check that it replaces; cut off if it is equal."""
+    segments: list[Segment] = table.segments
+    linked: Any = cell.linked
     if len(segments) == 1 and table is cell and not engine.logs:
         # The commonest of cases, at once: the one segment gets a new answer from the same cells.
         segment = segments[0]
@@ -94,7 +94,7 @@ def store(
     if table is cell:
         publish(engine, cell, segment, None, None)
     else:
-        cell.shelves.cover = None
+        cell.shelves.cover = None  # pyright: ignore[reportOptionalMemberAccess]
         publish(engine, cell, segment, point, table.axes)
 
 
@@ -162,7 +162,7 @@ def _insert(
 def stand(
     engine: "Engine",
     cell: "Cell",
-    table: Table,
+    table: Any,  # the cell itself, or one of the tables on its shelves
     segment: Segment,
     lo: float,
     hi: float,
@@ -188,7 +188,7 @@ def stand(
     if table is cell:
         publish(engine, cell, segment, None, None)
     else:
-        cell.shelves.cover = None
+        cell.shelves.cover = None  # pyright: ignore[reportOptionalMemberAccess]
         publish(engine, cell, segment, point, table.axes)
 
 

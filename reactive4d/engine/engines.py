@@ -1,4 +1,4 @@
-"""The engine: what all cells of a process share — the count of edits, the byte budget, the log, the open transaction."""
+"""The engine: what all cells of a process share, from the count of edits to the byte budget."""
 
 import itertools
 import sys
@@ -16,7 +16,7 @@ from reactive4d.engine.segments import Segment
 from reactive4d.errors import ParameterError, TimeError, unknown
 
 if TYPE_CHECKING:
-    from reactive4d.engine.cells import Cell
+    from reactive4d.engine.cells import Axis, Cell
 
 __all__ = ["Engine", "engine"]
 
@@ -72,7 +72,7 @@ class Engine:
         self.undo: list[Any] = []
         self.waiting = 0  # threads that wait for anything
         self.patience = 0  # evaluations that edits wait for
-        self.axes: dict[str, Any] = {}
+        self.axes: dict[str, weakref.WeakSet[Axis]] = {}
         self.points: dict[Any, Point] = {}
         self.bytes = 0  # at least what the remembered answers take; counted anew before anything is evicted
         self.keepers: list[Any] = []  # weak references to cells that remember something
@@ -139,7 +139,7 @@ class Engine:
                 self.points[key] = point
         return point
 
-    def new_axes(self) -> Any:
+    def new_axes(self) -> "weakref.WeakSet[Axis]":
         """A set that does not keep its parameters alive."""
         return weakref.WeakSet()
 
@@ -239,7 +239,7 @@ class Engine:
 
     @contextmanager
     def log(self) -> Generator[Log]:
-        """The events of the block, as a sequence that grows while it runs. Hits are counted only while a log is open."""
+        """The events of the block, as a sequence that grows while it runs. Only meanwhile are hits counted."""
         log = Log()
         with LOCK:
             self._listen([*self.logs, log])

@@ -82,4 +82,3 @@ class Log(Sequence[Event]):
 def _event(note: Note) -> Event:
     kind, cell, lo, hi = note
     return Event(kind, cell.name, lo, hi)
-

@@ -315,7 +315,7 @@ def forget(engine: "Engine", cells: "Iterable[Cell] | None") -> None:
 def stats(engine: "Engine", cells: "Iterable[Cell] | None") -> dict[str, Any]:
     """What the memo holds, in all and by cell."""
     chosen = [cell for ref in engine.keepers if (cell := ref()) is not None] if cells is None else list(cells)
-    by_cell = {}
+    by_cell: dict[str, dict[str, Any]] = {}
     for cell in chosen:
         answers = sum(len(table.segments) for table in tables(cell))
         by_cell[cell.name] = {

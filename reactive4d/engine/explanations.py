@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.failures import Failure
 from reactive4d.engine.frames import LOCK
-from reactive4d.engine.segments import Segment, Table, covering
+from reactive4d.engine.segments import ELSEWHERE, Segment, Table, covering
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
@@ -41,7 +41,7 @@ def explain(engine: "Engine", cell: "Cell", t: float, parameters: Mapping[str, A
             if again or segment is None:
                 continue
             for entry in reversed(segment.reads):
-                if type(entry) is tuple:
+                if type(entry) is ELSEWHERE:
                     below, there, its = engine.elsewhere(entry, at, where)
                     notes = [f"at t = {there:g}"] if entry[1] is not None else []
                     notes += [f"with {name} = {value!r}" for name, value in entry[2] or ()]

@@ -1,8 +1,8 @@
 """The commonest of cases, in one go: one remembered answer is in check, what it read is at hand, and something changed.
 
-What is done here is what `formulas`, `rules` and `answers` do in general, without their calls: most of what a recomputed
-cell costs in Python is calls. Whatever is not quite so is left to them, so this file could be deleted, and nothing but
-the speed would change.
+What is done here is what `formulas`, `rules` and `answers` do in general, without their calls: most of what a
+recomputed cell costs in Python is calls. Whatever is not quite so is left to them, so this file could be deleted, and
+nothing but the speed would change.
 """
 
 from time import perf_counter

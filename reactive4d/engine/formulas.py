@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.answers import add_axes, stand, store, table_for
 from reactive4d.engine.failures import Failure, failure
-from reactive4d.engine.frames import LOCK, Claim
+from reactive4d.engine.frames import LOCK, Claim, Need
 from reactive4d.engine.peeks import peek, unmoved
-from reactive4d.engine.segments import MappedReads, covering
+from reactive4d.engine.segments import ELSEWHERE, MappedReads, covering
 
 if TYPE_CHECKING:
-    from reactive4d.engine.cells import Cell
+    from reactive4d.engine.cells import Axis, Cell
     from reactive4d.engine.engines import Engine
     from reactive4d.engine.points import Point
 
@@ -22,8 +22,13 @@ FEW = 4  # inputs that are cheaper looked at again than remembered
 acquire, release = LOCK.acquire, LOCK.release
 
 
-def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
+def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Need:
     """Answer a cell that declares its inputs: None when done, [what is missing], or True to try again."""
+    lo: float
+    hi: float
+    values: list[Any]
+    stamps: list[int]
+    axes: dict[str, Axis] | None
     inputs = cell.inputs
     kept = claim.kept.pop(cell, None) if claim.kept is not None else None
     if kept is not None and kept[0] == engine.epoch:
@@ -36,7 +41,7 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
     logs = engine.logs
     bad: Failure | None = None
     for source in rest:
-        if mapped and type(source) is tuple:
+        if mapped and type(source) is ELSEWHERE:
             entry = source
             source, at, there = engine.elsewhere(entry, t, point)
             hit = peek(engine, source, at, there)

@@ -14,15 +14,18 @@ if TYPE_CHECKING:
     from reactive4d.engine.engines import Engine
     from reactive4d.engine.points import Point
 
-__all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me"]
+__all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me", "Need"]
 __all__ += ["Suspended", "Task", "here", "leave"]
 
 INF = float("inf")
 CLAIM = 4  # as a cell's kind
 
-# (lo, hi, value, stamp, point, axes): where an answer holds, the answer, its stamp, the point that it was asked at (None
-# where the default point will do) and the parameters that it read (None where it read none).
+# (lo, hi, value, stamp, point, axes): where an answer holds, the answer, its stamp, the point that it was asked at
+# (None where the default point will do) and the parameters that it read (None where it read none).
 Hit = tuple[float, float, Any, int, "Point | None", "tuple[Any, ...] | None"]
+
+# What is missing before a cell can be answered, a cell or (cell, t, point), as a list of one; True to try again.
+Need = list[Any] | bool | None
 
 # The hit of a cell that has nothing to hand out: no time lies in it.
 NEVER: Hit = (INF, -INF, None, 0, None, None)
@@ -124,6 +127,8 @@ class Task:
         "raised",  # (the exception that was raised at a read, the failure that it stands for)
         "t",
     )
+
+    parent: "Task | None"
 
     def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me, epoch: int) -> None:
         self.cell = cell

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.checks import reached
 from reactive4d.engine.evictions import tables
+from reactive4d.engine.segments import ELSEWHERE
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
@@ -60,5 +61,5 @@ def graph(cells: "Iterable[Cell]") -> Graph:
             for segment in table.segments:
                 entries.extend(segment.reads)
         for entry in entries:
-            links[number[cell], number[entry[0] if type(entry) is tuple else entry]] = None
+            links[number[cell], number[entry[0] if type(entry) is ELSEWHERE else entry]] = None
     return Graph({i: (cell.name, KINDS[cell.kind], _state(cell)) for cell, i in number.items()}, tuple(links))

@@ -125,4 +125,3 @@ class Hits(Table):
 
     def _asked(self, t: Any, parameters: dict[str, Any]) -> Any:
         raise NotImplementedError
-

@@ -1,4 +1,4 @@
-"""Pushing staleness: an edit marks what may depend on it, along the links and over the touched interval, and no further.
+"""Pushing staleness: an edit marks what may depend on it, along the links and over the touched interval, no further.
 
 Nothing is computed. The walk stops where everything is marked already, so that repeated edits before the next ask cost
 next to nothing. It has a stack of its own: no depth of links is too deep.

@@ -31,7 +31,7 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
     if cell.kind == SOURCE:
         return cell.sample(t)[2], {}
     if cell.kind == AXIS:
-        return (cell.hit[2] if point is None else point.shown(cell)), {cell.name: cell}
+        return (cell.hit[2] if point is None else point.shown(cell)), {cell.name: cell}  # pyright: ignore[reportArgumentType]
     other = parent
     path = [(cell.name, t)]
     while other is not None:

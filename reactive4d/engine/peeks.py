@@ -8,7 +8,7 @@ from reactive4d.engine.answers import publish
 from reactive4d.engine.failures import Failure, failure
 from reactive4d.engine.frames import Cancelled, Hit, Task
 from reactive4d.engine.kinds import AXIS, SOURCE
-from reactive4d.engine.segments import covering
+from reactive4d.engine.segments import ELSEWHERE, covering
 from reactive4d.engine.stamps import piece
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def peek(engine: "Engine", cell: "Cell", t: float, point: "Point | None") -> Hit
     if kind == AXIS:
         if point is None:
             return cell.hit
-        return -INF, INF, point.shown(cell), 0, point, (cell,)
+        return -INF, INF, point.shown(cell), 0, point, (cell,)  # pyright: ignore[reportArgumentType]
     segments = cell.segments
     if segments:
         i = bisect_right(cell.starts, t) - 1 if len(segments) > 1 else 0
@@ -66,11 +66,11 @@ def unmoved(
     """Where, round `t`, everything that was read is clean and as it was; None if something is not."""
     lo, hi = -INF, INF
     for entry, stamp in zip(reads, stamps, strict=True):
-        cell, at, there = engine.elsewhere(entry, t, point) if type(entry) is tuple else (entry, t, point)
+        cell, at, there = engine.elsewhere(entry, t, point) if type(entry) is ELSEWHERE else (entry, t, point)
         hit = peek(engine, cell, at, there)
         if hit is None or hit[3] != stamp:
             return None
-        if type(entry) is tuple:
+        if type(entry) is ELSEWHERE:
             hit = engine.brought_back(entry, hit, at, t)
         lo, hi = max(lo, hit[0]), min(hi, hit[1])
     return lo, hi

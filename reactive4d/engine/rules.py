@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.answers import add_axes, stand, store, table_for
 from reactive4d.engine.failures import failure
-from reactive4d.engine.frames import LOCK, Cancelled, Claim, Suspended, Task
+from reactive4d.engine.frames import LOCK, Cancelled, Claim, Need, Suspended, Task
 from reactive4d.engine.peeks import peek, recheck
-from reactive4d.engine.segments import Content, MappedReads, Segment, Table, covering
+from reactive4d.engine.segments import ELSEWHERE, Content, MappedReads, Segment, Table, covering
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Axis, Cell
@@ -26,7 +26,7 @@ _Progress = tuple[int, int, float, float, "dict[str, Axis] | None"]
 _START: _Progress = (0, 0, -INF, INF, None)
 
 
-def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Any:
+def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim) -> Need:
     """Answer a cell whose rule is opaque: None when done, [what is missing], or True to try again."""
     segments = cell.segments
     if cell.shelves is None and len(segments) == 1 and claim.kept is None:
@@ -45,14 +45,14 @@ def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim:
         segment, old, table = candidates[refuted]
         reads, stamps = (segment.reads, segment.stamps) if old is None else (old[2], old[3])
         # In order, and no further than the first change: a later dependency may exist only because of an earlier value.
-        for index in range(index, len(reads)):
-            source = reads[index]
-            if type(source) is tuple:
+        for place in range(index, len(reads)):
+            source = reads[place]
+            if type(source) is ELSEWHERE:
                 entry = source
                 source, at, there = engine.elsewhere(entry, t, point)
                 hit = peek(engine, source, at, there)
                 if hit is None:
-                    claim.keep(cell, (engine.epoch, (refuted, index, lo, hi, axes)))
+                    claim.keep(cell, (engine.epoch, (refuted, place, lo, hi, axes)))
                     return [(source, at, there)]
                 hit = engine.brought_back(entry, hit, at, t)
             else:
@@ -60,17 +60,17 @@ def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim:
                 if not (hit[0] <= t < hit[1] and (hit[5] is None or hit[4] is point)):
                     hit = peek(engine, source, t, point)
                     if hit is None:
-                        if index or refuted:
-                            claim.keep(cell, (engine.epoch, (refuted, index, lo, hi, axes)))
+                        if place or refuted:
+                            claim.keep(cell, (engine.epoch, (refuted, place, lo, hi, axes)))
                         return [source]
-            if hit[3] != stamps[index]:
+            if hit[3] != stamps[place]:
                 break
             if hit[0] > lo:
                 lo = hit[0]
             if hit[1] < hi:
                 hi = hit[1]
             if hit[5] is not None:
-                axes, problem = add_axes(cell, axes, hit[5])
+                axes, problem = add_axes(cell, axes, hit[5])  # pyright: ignore[reportArgumentType]
                 if problem is not None:
                     break
         else:
@@ -85,9 +85,7 @@ def rule(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim:
     return _run(engine, Task(cell, t, point, claim.me, engine.epoch))
 
 
-def _simple(
-    engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim, segment: Segment
-) -> Any:
+def _simple(engine: "Engine", cell: "Cell", t: float, point: "Point | None", claim: Claim, segment: Segment) -> Need:
     """The same for a cell that remembers one answer, which read a few cells at its own time: the commonest of cases."""
     if segment.lo <= t < segment.hi:
         lo, hi = segment.lo, segment.hi
@@ -137,7 +135,7 @@ def _candidates(
     return found
 
 
-def _run(engine: "Engine", task: Task) -> Any:
+def _run(engine: "Engine", task: Task) -> Need:
     """Run an opaque rule, without the lock, and store its answer: None when done, or True to try again."""
     cell, me = task.cell, task.me
     outer = me.frame

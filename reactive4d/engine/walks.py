@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.express import express
 from reactive4d.engine.formulas import formula
-from reactive4d.engine.frames import CHANGED, CLAIM, Claim, Crowd, CycleFound, Hit, Me, Suspended, leave
+from reactive4d.engine.frames import CHANGED, CLAIM, Claim, Crowd, CycleFound, Hit, Me, Need, Suspended, leave
 from reactive4d.engine.kinds import COMPUTED, FORMULA
 from reactive4d.engine.peeks import peek
 from reactive4d.engine.rules import rule
+from reactive4d.engine.segments import ELSEWHERE
 from reactive4d.errors import CycleError, hint
 
 if TYPE_CHECKING:
@@ -31,6 +32,13 @@ PATIENCE = 3  # restarts after which edits wait
 
 def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | None", me: Me) -> Hit:
     """Bring one cell that has no clean answer up to date at one point, and with it whatever it needs."""
+    t: float
+    at: float
+    point: Point | None
+    there: Point | None
+    claim: Claim
+    need: Need
+    wanted: Any
     t, point = root_t, root_point
     claim = first = Claim(t, point, me)
     others: list[Claim] = []
@@ -87,7 +95,7 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                     stack.pop()
                 elif type(need) is list:
                     wanted = need[0]
-                    if type(wanted) is tuple:
+                    if type(wanted) is ELSEWHERE:
                         wanted, at, there = wanted
                         if at != t or there is not point:
                             stack.append(claim)
@@ -147,7 +155,7 @@ def _descend(cell: "Cell", t: float, claim: Claim, stack: "list[Any]") -> "Cell"
 def _occupied(engine: "Engine", cell: "Cell", claim: Claim) -> bool:
     """Add a claim to others; or wait for another thread at the same point, then True; a cycle if it is this thread."""
     busy = cell.busy
-    others = list(busy) if type(busy) is Crowd else [busy]
+    others: list[Any] = list(busy) if type(busy) is Crowd else [busy]
     for other in others:
         if other.t == claim.t and _same_point(other.point, claim.point):
             if other.me is claim.me:
