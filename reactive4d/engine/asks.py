@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from reactive4d.engine import hits
-from reactive4d.engine.frames import DEPTH, LOCK, CycleFound, Hit, Suspended, Task, here
+from reactive4d.engine.frames import DEPTH, LOCK, CycleFound, Hit, Suspended, Task, entered_twice, here, is_held
 from reactive4d.engine.peeks import peek, recheck
 from reactive4d.engine.walks import bring, cycle_error
 from reactive4d.errors import DepthError, EvaluationError, hint
@@ -41,6 +41,8 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
     if frame.cell.engine is not engine:
         raise EvaluationError(f"{frame.cell.name} reads {cell.name}, which belongs to another engine")
     me = frame.me
+    if is_held():
+        raise entered_twice(cell.name)
     with LOCK:
         if engine.epoch != frame.epoch:
             recheck(engine, frame)

@@ -15,7 +15,19 @@ from reactive4d.engine import asks, edits, hits, naive
 from reactive4d.engine.answers import add_axes
 from reactive4d.engine.express import express
 from reactive4d.engine.failures import Failure, raised
-from reactive4d.engine.frames import LOCK, NEVER, Cancelled, Claim, Crowd, CycleFound, Hit, Task, here
+from reactive4d.engine.frames import (
+    LOCK,
+    NEVER,
+    Cancelled,
+    Claim,
+    Crowd,
+    CycleFound,
+    Hit,
+    Task,
+    entered_twice,
+    here,
+    is_held,
+)
 from reactive4d.engine.hits import COLD, COOL, Hits
 from reactive4d.engine.kinds import AXIS, COMPUTED, FORMULA, SOURCE
 from reactive4d.engine.maps import Fixed, TimeMap
@@ -108,6 +120,8 @@ class Cell(Hits):
     def _refreshed(self, t: float) -> Any:
         """The answer where what is remembered is in check, and nothing is being evaluated: at once, if it is simple."""
         engine = self.engine
+        if is_held():
+            raise entered_twice(self.name)
         with LOCK:
             if self.busy is None and engine.owner is None and t < INF:
                 try:
@@ -131,6 +145,8 @@ class Cell(Hits):
     def _hit_at(self, t: float, parameters: dict[str, Any]) -> Hit:
         """The hit at a point, from outside of any evaluation."""
         engine = self.engine
+        if is_held():
+            raise entered_twice(self.name)
         point = engine.point(parameters) if parameters else None
         if t != t:
             raise TimeError(f"{self.name} asked at t = nan")
@@ -162,11 +178,13 @@ class Cell(Hits):
 
         Raises:
             EvaluationError: inside of an evaluation, whose answer must not depend on what is remembered.
-            Exception: whatever `at` raises for this point, but for errors of rules, which are answers that hold as well.
+            Exception: whatever `at` raises for this point, but for errors of rules: these are answers, and hold as well.
         """
         if here.me.frame is not None:
             error = EvaluationError(f"{self.name}.valid(…) inside of the evaluation of {here.me.frame.cell.name}")
-            raise hint(error, "an answer holds where what it read by now() and at(t) holds; nothing need be asked for it")
+            raise hint(
+                error, "an answer holds where what it read by now() and at(t) holds; nothing need be asked for it"
+            )
         hit = self._hit_at(as_time(t, self), parameters)
         return Interval(hit[0], hit[1])
 
@@ -323,6 +341,8 @@ class Axis(Cell):
     """A reader's parameter: answers with the value at the point where one asks, else with its default."""
 
     __slots__ = ("default",)
+
+    default: Any
 
     kind = AXIS
     unchanging = True

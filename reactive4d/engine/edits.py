@@ -8,7 +8,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.frames import CHANGED, LOCK, NEVER, Me, here
+from reactive4d.engine.frames import CHANGED, LOCK, NEVER, Me, entered_twice, here, is_held
 from reactive4d.engine.hits import COLD, COOL
 from reactive4d.engine.marks import mark, push
 from reactive4d.engine.stamps import Stamps, assigned
@@ -42,6 +42,8 @@ def _enter(engine: "Engine", what: str) -> Me:
 def set_content(source: "Source", content: Any) -> None:
     """Give a source another content; equal content is no edit."""
     engine = source.engine
+    if is_held():
+        raise entered_twice(source.name)
     with LOCK:
         _enter(engine, f"{source.name} is set")
         old, stamps = source.content, source.stamps
@@ -93,6 +95,8 @@ def _apply(engine: "Engine", source: "Source", content: Any, stamps: Stamps, spa
 @contextmanager
 def transaction(engine: "Engine") -> Generator[None]:
     """Publish all edits of the block at once, or none if it raises. Inside another one, it is a part of that one."""
+    if is_held():
+        raise entered_twice("transaction()")
     with LOCK:
         me = _enter(engine, "a transaction begins")
         outermost = engine.owner is None

@@ -7,7 +7,10 @@ local `here` finds it.
 """
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
+
+from reactive4d.errors import EvaluationError, hint
 
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
@@ -15,7 +18,7 @@ if TYPE_CHECKING:
     from reactive4d.engine.points import Point
 
 __all__ = ["CHANGED", "CLAIM", "LOCK", "NEVER", "Cancelled", "Claim", "Crowd", "CycleFound", "Hit", "Me", "Need"]
-__all__ += ["Suspended", "Task", "here", "leave"]
+__all__ += ["Suspended", "Task", "entered_twice", "here", "is_held", "leave"]
 
 INF = float("inf")
 CLAIM = 4  # as a cell's kind
@@ -31,7 +34,9 @@ Need = list[Any] | bool | None
 NEVER: Hit = (INF, -INF, None, 0, None, None)
 
 # One lock guards the bookkeeping of all engines; rules run without it.
-LOCK = threading.Lock()
+# The thread that has it can take it again, so that a finalizer, which may run anywhere, does not wait for itself for
+# ever: whoever would use the engine there finds `is_held`, and is refused.
+LOCK = threading.RLock()
 CHANGED = threading.Condition(LOCK)
 
 # How many opaque rules may run inside of one another before the evaluation is unwound and begun again from below:
@@ -144,6 +149,16 @@ class Task:
         self.raised: tuple[BaseException, Any] | None = None
         self.handed: Any = None
         self.naive: Any = None
+
+
+# Whether this thread has the lock already: then only a finalizer, or a source's own `sample`, can have got here.
+is_held: Callable[[], bool] = LOCK._is_owned  # type: ignore[attr-defined]  # pyright: ignore
+
+
+def entered_twice(name: str) -> EvaluationError:
+    """The error for using the engine in the middle of its own bookkeeping."""
+    error = EvaluationError(f"{name} is used in the middle of the engine's own work")
+    return hint(error, "neither a finalizer (__del__) nor the sample() of a source may ask or edit")
 
 
 def leave(engine: "Engine", cell: "Cell", claim: Claim) -> None:
