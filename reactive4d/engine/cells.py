@@ -178,7 +178,7 @@ class Cell(Hits):
 
         Raises:
             EvaluationError: inside of an evaluation, whose answer must not depend on what is remembered.
-            Exception: whatever `at` raises for this point, but for errors of rules: these are answers, and hold as well.
+            Exception: whatever `at` raises for this point but errors of rules: these are answers, and hold as well.
         """
         if here.me.frame is not None:
             error = EvaluationError(f"{self.name}.valid(…) inside of the evaluation of {here.me.frame.cell.name}")

@@ -86,7 +86,10 @@ class Affine(TimeMap):
         near, far = (lo, hi) if self.scale > 0 else (hi, lo)
         a += self._slack(a, near)
         b -= self._slack(b, far)
-        return inwards(a, b, t)
+        a, b = inwards(a, b, t)
+        if a == -INF and not lo <= min(self.forward(-INF), sys.float_info.max) < hi:
+            a = -sys.float_info.max  # the end was too far for a float, but -inf itself reads outside of [lo, hi)
+        return a, b
 
     def preimage(self, lo: float, hi: float) -> list[tuple[float, float]]:
         """The inverse image, rounded outwards."""

@@ -155,3 +155,12 @@ def test_a_map_without_an_inverse_is_refused(scale: float, offset: float) -> Non
     with pytest.raises(TimeError, match="Affine: expected finite numbers, scale not 0") as caught:
         Affine(scale, offset)
     assert caught.value.__notes__ == ["hint: to read at one fixed time use Fixed(t)"]
+
+
+def test_a_very_slow_map_does_not_claim_minus_infinity() -> None:
+    """What lies too far for a float lies outside all the same: -inf is read at -inf."""
+    slow = Affine(1e-300, 0.0)
+    lo, hi = slow.pull(-1e10, 1e10, 0.0)
+    assert lo > -math.inf
+    assert -1e10 <= slow.forward(lo) < 1e10
+    assert hi == math.inf
