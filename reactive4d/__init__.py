@@ -21,10 +21,10 @@ from reactive4d.signals.algebra import equal, lift, vec
 from reactive4d.signals.choices import where
 from reactive4d.signals.colors import color
 from reactive4d.signals.curves import Key
+from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import signal
 from reactive4d.signals.keys import Keys, keys
 from reactive4d.signals.rotations import Rotation
-from reactive4d.signals.facade import Signal
 from reactive4d.signals.sources import Parameter, Variable, time
 
 __all__ = [

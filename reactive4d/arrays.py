@@ -6,7 +6,11 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["freeze", "measure", "same"]
+__all__ = ["ARRAY", "SCALAR", "freeze", "measure", "same"]
+
+# For `isinstance`: by the classes themselves a checker would find arrays and scalars of unknown items.
+ARRAY: Any = np.ndarray
+SCALAR: Any = np.generic
 
 _EXACT = (int, str, bytes, bool, type(None))
 
@@ -22,7 +26,7 @@ def same(a: Any, b: Any) -> bool:
     """
     if a is b:
         return True
-    kind = type(a)
+    kind = type(a)  # pyright: ignore[reportUnknownVariableType]
     if kind is not type(b):
         return False
     if kind is float:
@@ -35,9 +39,9 @@ def same(a: Any, b: Any) -> bool:
         return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b, strict=True))
     if kind is complex:
         return same(a.real, b.real) and same(a.imag, b.imag)
-    if getattr(kind, "compares_exactly", False) is True:
+    if getattr(kind, "compares_exactly", False) is True:  # pyright: ignore[reportUnknownArgumentType]
         return bool(a == b)
-    if isinstance(a, np.generic):
+    if isinstance(a, SCALAR):
         return a.dtype != object and _same_arrays(np.asarray(a), np.asarray(b))
     return False
 
@@ -76,7 +80,7 @@ def measure(value: Any) -> int:
     >>> measure(np.zeros(1000)) > 8000
     True
     """
-    kind = type(value)
+    kind = type(value)  # pyright: ignore[reportUnknownVariableType]
     if kind is float:
         return 24
     if kind is np.ndarray:

@@ -66,7 +66,7 @@ def graph(*signals: Signal[Any]) -> Graph:
 
 
 def stats(signals: Iterable[Signal[Any]] | None = None) -> dict[str, Any]:
-    """Bytes, budget, evictions; and by signal its evaluations, seconds, answers, bytes, hits and the seconds they saved.
+    """Bytes, budget, evictions; by signal its evaluations, seconds, answers, bytes, hits and the seconds they saved.
 
     Hits are counted only while a log is open; seconds are measured at the first evaluation and every sixteenth.
 

@@ -13,8 +13,8 @@ import numpy as np
 from reactive4d.engine import Formula, sealed
 from reactive4d.errors import ShapeError, hint
 from reactive4d.signals import kernels
+from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.kernels import Operator
-from reactive4d.signals.facade import Signal
 
 __all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operate", "vec"]
 
@@ -28,7 +28,7 @@ class Operation(Signal[T], Formula):
     __slots__ = ("operands", "operator")
 
     def __init__(self, operator: Operator, operands: tuple[Any, ...]) -> None:
-        inputs = tuple([x for x in operands if isinstance(x, Signal)])
+        inputs: list[Signal[Any]] = [x for x in operands if isinstance(x, Signal)]
         super().__init__(operator.bound(operands), *inputs, name="")
         self.operator = operator
         self.operands = operands
@@ -58,7 +58,7 @@ def _shown(x: Any, depth: int) -> str:
     return x.operator.text([_shown(y, depth - 1) for y in x.operands])
 
 
-def operand(x: Any) -> Any:
+def operand(x: Operand) -> Any:
     """A signal as it is; a constant frozen, lists and tuples of numbers as arrays."""
     if isinstance(x, Signal) or type(x) in (float, int, bool, str):
         return x
@@ -108,8 +108,12 @@ def of_function(function: Any, arguments: Any, options: dict[str, Any]) -> Signa
         return where(*arguments)
     if "out" in options:
         raise TypeError(f"np.{function.__name__} on signals has no `out`")
-    plain = [vec(*x) if isinstance(x, list | tuple) and any(isinstance(y, Signal) for y in x) else x for x in arguments]
-    return Operation(kernels.function(function, options), tuple(plain))
+    return Operation(kernels.function(function, options), tuple([_gathered(x) for x in arguments]))
+
+
+def _gathered(x: Operand) -> Any:
+    """A sequence with signals in it as one signal, as NumPy makes one array of a sequence."""
+    return vec(*x) if isinstance(x, list | tuple) and any(isinstance(y, Signal) for y in x) else x
 
 
 def vec(x: Any, y: Any, *rest: Any) -> Signal[Any]:

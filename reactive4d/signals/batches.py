@@ -10,18 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.arrays import freeze, measure
-from reactive4d.engine import Cell, asks
+from reactive4d.arrays import ARRAY, freeze, measure
+from reactive4d.engine import Cell
 from reactive4d.engine.evictions import SEGMENT, enlist
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import LOCK, here
 from reactive4d.engine.kinds import AXIS, SOURCE
 from reactive4d.engine.links import ANYWHERE, add_link
 from reactive4d.engine.points import Point
+from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.shelves import Shelves
 from reactive4d.errors import TimeError
-from reactive4d.signals.settables import Settable
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.settables import Settable
 
 __all__ = ["batch"]
 
@@ -41,7 +42,7 @@ class Remembered:
         self.key = key
 
 
-class _NotTogether(Exception):
+class _NotTogetherError(Exception):
     """Some part went wrong for some time: ask one by one, so that the error names it."""
 
 
@@ -76,10 +77,10 @@ def batch(signal: Signal[Any], times: Any, parameters: dict[str, Any]) -> Any:
         walk = _Walk(ts, point)
         try:
             value = walk.ask(signal, ts)
-        except (_NotTogether, RecursionError):
+        except (_NotTogetherError, RecursionError):
             walk = _Walk(ts, point)
             value = _one_by_one(signal, ts, point, walk)
-        value = freeze(value) if isinstance(value, np.ndarray) else value
+        value = freeze(value) if isinstance(value, ARRAY) else value
         with LOCK:
             if engine.epoch == epoch and (engine.owner is None or engine.owner is here.me):
                 _remember(signal, digest, ts, point, walk, value)
@@ -131,7 +132,7 @@ class _Walk:
         self.leaves: dict[Cell, bool] = {}
         self.axes: dict[Any, None] = {}
 
-    def leaf(self, cell: Cell, ts: Any) -> None:
+    def leaf(self, cell: Any, ts: Any) -> None:
         self.leaves[cell] = self.leaves.get(cell, False) or ts is not self.ts
 
     def ask(self, root: Any, ts: Any) -> Any:
@@ -143,7 +144,7 @@ class _Walk:
             if cell in done:
                 todo.pop()
                 continue
-            if hasattr(cell, "vectorised") and cell.kind != SOURCE and type(cell.inputs) is tuple:
+            if hasattr(cell, "vectorised") and cell.kind != SOURCE and type(cell.inputs) is not MappedReads:
                 missing = [x for x in cell.inputs if x not in done]
                 if missing:
                     todo.extend(missing)
@@ -160,7 +161,7 @@ class _Walk:
         try:
             return cell.vectorised(*values)
         except Exception as error:
-            raise _NotTogether from error
+            raise _NotTogetherError from error
 
     def _other(self, cell: Any, ts: Any) -> Any:
         if cell.kind == AXIS:
@@ -175,10 +176,10 @@ class _Walk:
         if hasattr(cell, "many"):
             try:
                 return cell.many(ts, self.ask)
-            except _NotTogether:
+            except _NotTogetherError:
                 raise
             except Exception as error:
-                raise _NotTogether from error
+                raise _NotTogetherError from error
         return _one_by_one(cell, ts, self.point, self)
 
 
@@ -203,12 +204,12 @@ def _one_by_one(cell: Any, ts: Any, point: Point | None, walk: _Walk) -> Any:
 def _repeated(value: Any, n: int) -> Any:
     if isinstance(value, bool | int | float):
         return np.full(n, value)
-    return np.broadcast_to(value, (n, *value.shape)) if isinstance(value, np.ndarray) else (value,) * n
+    return np.broadcast_to(value, (n, *value.shape)) if isinstance(value, ARRAY) else (value,) * n
 
 
 def _stacked(answers: list[Any]) -> Any:
     """Numbers and arrays of one shape as one array, everything else as a tuple."""
-    kinds = {type(x) for x in answers}
+    kinds: set[Any] = {type(x) for x in answers}
     if kinds <= {float, int} or kinds == {bool}:
         return np.array(answers)
     if kinds == {np.ndarray} and len({(x.shape, x.dtype) for x in answers}) == 1:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from reactive4d.arrays import ARRAY
 from reactive4d.errors import ShapeError
 from reactive4d.signals.algebra import operand
 from reactive4d.signals.facade import Signal
@@ -25,14 +26,15 @@ class Choice(Signal[Any]):
     def rule(self) -> Any:
         """Read the condition, then only what it chooses."""
         condition = self.condition.now()
-        if isinstance(condition, np.ndarray):
-            return np.where(condition, _now(self.yes), _now(self.no))
+        if isinstance(condition, ARRAY):
+            yes, no = _now(self.yes), _now(self.no)
+            return np.where(condition, yes, no)  # pyright: ignore[reportUnknownVariableType]
         return _now(self.yes if condition else self.no)
 
     def many(self, ts: Any, ask: Any) -> Any:
         """Each of the two, asked only at the times where it is chosen."""
         condition = ask(self.condition, ts)
-        if not isinstance(condition, np.ndarray) or condition.ndim != 1:
+        if not isinstance(condition, ARRAY) or condition.ndim != 1:
             raise ShapeError(f"where: expected one truth value for each time, got {condition!r}")
         chosen = condition.astype(bool)
         if chosen.all():
@@ -41,7 +43,7 @@ class Choice(Signal[Any]):
             return _all(self.no, ts, ask)
         parts = [_all(self.yes, ts[chosen], ask), _all(self.no, ts[~chosen], ask)]
         if any(isinstance(part, tuple) for part in parts) or parts[0].shape[1:] != parts[1].shape[1:]:
-            rows = [iter(part.tolist() if isinstance(part, np.ndarray) and part.ndim == 1 else part) for part in parts]
+            rows = [iter(part.tolist() if isinstance(part, ARRAY) and part.ndim == 1 else part) for part in parts]
             return tuple([next(rows[0] if is_yes else rows[1]) for is_yes in chosen])
         answer = np.empty((len(ts), *parts[0].shape[1:]), dtype=np.result_type(*parts))
         answer[chosen], answer[~chosen] = parts
@@ -49,7 +51,7 @@ class Choice(Signal[Any]):
 
 
 def _now(x: Any) -> Any:
-    return x.now() if isinstance(x, Signal) else x
+    return x.now() if isinstance(x, Signal) else x  # pyright: ignore[reportUnknownVariableType]
 
 
 def _all(x: Any, ts: Any, ask: Any) -> Any:
@@ -57,10 +59,10 @@ def _all(x: Any, ts: Any, ask: Any) -> Any:
         return ask(x, ts)
     if isinstance(x, bool | int | float):
         return np.full(len(ts), x)
-    return np.broadcast_to(x, (len(ts), *x.shape)) if isinstance(x, np.ndarray) else (x,) * len(ts)
+    return np.broadcast_to(x, (len(ts), *x.shape)) if isinstance(x, ARRAY) else (x,) * len(ts)
 
 
-def where(condition: Any, yes: Any, no: Any) -> Signal[Any]:
+def where(condition: Signal[Any], yes: Any, no: Any) -> Signal[Any]:
     """`yes` while the condition is true, else `no`: signals or constants, of which only the chosen one is read.
 
     >>> import reactive4d as r4
@@ -68,6 +70,6 @@ def where(condition: Any, yes: Any, no: Any) -> Signal[Any]:
     >>> step.at(0.0), step.at(3.0), step.valid(0.0)
     (1.0, 2.0, (-inf, 3))
     """
-    if not isinstance(condition, Signal):
+    if not isinstance(condition, Signal):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"where: expected a signal as condition, got {condition!r}")
     return Choice(condition, operand(yes), operand(no))

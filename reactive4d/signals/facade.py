@@ -10,7 +10,7 @@ from reactive4d.arrays import freeze, measure, same
 from reactive4d.engine import Cell, engine
 from reactive4d.errors import hint
 
-__all__ = ["Signal"]
+__all__ = ["Operand", "Signal"]
 
 T_co = TypeVar("T_co", covariant=True)
 U = TypeVar("U")
@@ -40,9 +40,12 @@ class Signal(Cell, Generic[T_co]):
         def at(self, t: float, /, **parameters: Any) -> T_co: ...
         @overload
         def at(self, t: Array | list[float], /, **parameters: Any) -> Any: ...
-        def at(self, t: Any, /, **parameters: Any) -> Any: ...
+        def at(self, t: Any, /, **parameters: Any) -> Any:
+            """The answer at one instant, or the answers at (N,) times."""
 
-        def now(self) -> T_co: ...
+        def now(self) -> T_co:
+            """The answer at the asker's own point; only inside of an evaluation."""
+            ...
 
     def _is_batch(self, t: Any) -> bool:
         return isinstance(t, list | tuple) or (isinstance(t, np.ndarray) and t.ndim > 0)
@@ -277,6 +280,10 @@ class Signal(Cell, Generic[T_co]):
     def __array__(self, dtype: Any = None, copy: Any = None) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it does not fit into an array")
         raise hint(error, "vec(x, y, z) is a signal of vectors; s.at(t) is a value")
+
+
+# What algebra takes: signals, and constants of NumPy and Python. Any other object passes through it as it is.
+Operand = Signal[Any] | NDArray[Any] | np.generic | list[Any] | tuple[Any, ...] | complex | str
 
 
 def _operate(name: str, *operands: Any) -> "Signal[Any]":

@@ -1,4 +1,4 @@
-"""Where a signal of numbers runs steadily: over an interval it only rises or only falls, by a function that can be tried.
+"""Where a signal of numbers runs steadily: over an interval it only rises or only falls, by a function one can try.
 
 Whoever compares such a signal with a number can find out for how long the comparison holds, without an answer for every
 instant. `line` knows time, what arithmetic with held numbers makes of it, and the straight pieces of keys.
@@ -12,7 +12,7 @@ import numpy as np
 
 from reactive4d.engine import moment
 from reactive4d.signals.algebra import Operation
-from reactive4d.signals.facade import Signal
+from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.sources import Time
 
 __all__ = ["Line", "could_be_line", "line"]
@@ -41,15 +41,15 @@ def could_be_line(x: Any) -> bool:
             return True
         if not isinstance(x, Operation) or x.operator.symbol not in _LINEAR:
             return False
-        moving = [y for y in x.operands if isinstance(y, Signal)]
-        lines = [y for y in moving if isinstance(y, Time | Operation) or hasattr(y, "straight")]
+        moving: list[Any] = [y for y in x.operands if isinstance(y, Signal)]
+        lines: list[Any] = [y for y in moving if isinstance(y, Time | Operation) or hasattr(y, "straight")]
         if len(lines) != 1:
             return False
         x = lines[0]
     return False
 
 
-def _held(x: Any) -> tuple[float, float, float] | None:
+def _held(x: Operand) -> tuple[float, float, float] | None:
     """A number that holds round the asked time: (lo, hi, value); what is read narrows the answer."""
     if isinstance(x, Signal):
         x = x.now()
@@ -58,22 +58,25 @@ def _held(x: Any) -> tuple[float, float, float] | None:
     return None
 
 
-def line(x: Any) -> Line | None:
+def line(x: Operand) -> Line | None:
     """How a signal runs round the asked time; only inside of an evaluation. What it depends on is noted."""
-    if not isinstance(x, Signal):
-        return Line(-INF, INF, lambda t: x, 0.0, 0.0, float(x)) if type(x) in (float, int) else None
-    if isinstance(x, Time):
-        return Line(-INF, INF, _same, 0.0, 1.0, 0.0)
-    straight = getattr(x, "straight", None)
-    if straight is not None:
-        return straight(moment())
-    if not isinstance(x, Operation) or not could_be_line(x):
-        held = _held(x)
-        if held is None:
-            return None
-        value = held[2]
-        return Line(-INF, INF, lambda t: value, 0.0, 0.0, float(value))
-    return _operated(x)
+    if isinstance(x, Signal):
+        if isinstance(x, Time):
+            return Line(-INF, INF, _same, 0.0, 1.0, 0.0)
+        straight = getattr(x, "straight", None)
+        if straight is not None:
+            return straight(moment())
+        if isinstance(x, Operation) and could_be_line(x):
+            return _operated(x)
+    held = _held(x)
+    if held is None:
+        return None
+    value = held[2]
+
+    def at(t: float) -> float:
+        return value
+
+    return Line(-INF, INF, at, 0.0, 0.0, float(value))
 
 
 def _same(t: float) -> float:
@@ -90,7 +93,11 @@ def _operated(x: Operation[Any]) -> Line | None:
         assert a is not None
         sign = -1.0 if symbol is np.negative else 1.0
         inner = a.at
-        return Line(a.lo, a.hi, lambda t: one(inner(t)), a.error, sign * a.slope, sign * a.offset)
+
+        def outer(t: float) -> Any:
+            return one(inner(t))
+
+        return Line(a.lo, a.hi, outer, a.error, sign * a.slope, sign * a.offset)
     a, b = parts
     assert a is not None
     assert b is not None

@@ -1,7 +1,7 @@
-"""Operations whose answers stay the same for a while although what they read does not: comparisons, floor, sign, minimum.
+"""Operations whose answers stay the same for a while although what they read does not: comparisons, floor, sign.
 
-Where the operand runs steadily (`lines`), the ends of the piece are found exactly: first where the line should cross the
-threshold, else by bisecting the floating point numbers themselves.
+Where the operand runs steadily (`lines`), the ends of the piece are found exactly: first where the line should cross
+the threshold, else by bisecting the floating point numbers themselves.
 """
 
 import math
@@ -15,9 +15,9 @@ from reactive4d.arrays import same
 from reactive4d.engine import moment, narrow
 from reactive4d.engine.kinds import COMPUTED, FORMULA
 from reactive4d.signals.algebra import Operation
+from reactive4d.signals.facade import Signal
 from reactive4d.signals.kernels import Operator
 from reactive4d.signals.lines import Line, could_be_line, line
-from reactive4d.signals.facade import Signal
 
 __all__ = ["Stepping"]
 
@@ -68,7 +68,7 @@ class Stepping(Operation[Any]):
 
 
 def _is_steady(operands: tuple[Any, ...]) -> bool:
-    live = [x for x in operands if isinstance(x, Signal)]
+    live: list[Any] = [x for x in operands if isinstance(x, Signal)]
     if any(not isinstance(x, Signal) and type(x) not in (float, int) for x in operands):
         return False
     return sum(could_be_line(x) for x in live) == 1

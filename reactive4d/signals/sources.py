@@ -9,8 +9,8 @@ from reactive4d.arrays import freeze
 from reactive4d.engine import Axis, Engine, Source
 from reactive4d.engine.links import link
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
+from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.settables import Settable
-from reactive4d.signals.facade import Signal
 
 __all__ = ["Parameter", "Time", "Variable", "time"]
 
@@ -82,7 +82,7 @@ class Variable(Settable[T], Generic[T]):
         """A signal is a reference."""
         return isinstance(content, Signal)
 
-    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
+    def difference(self, old: Operand, new: Operand) -> list[tuple[float, float]]:
         """Where two contents may say something different: keys over keys differ only where their curves do."""
         if isinstance(old, Signal) and isinstance(new, Signal) and old is not new:
             before, after = getattr(old, "curve", None), getattr(new, "curve", None)
@@ -92,8 +92,9 @@ class Variable(Settable[T], Generic[T]):
 
     def adopt(self) -> None:
         """A constant makes it a source, a signal a formula that passes that one on."""
-        if isinstance(self.content, Signal):
-            self._be_formula(self.content)
+        content = self.content
+        if isinstance(content, Signal):
+            self._be_formula(content)
             # What is remembered outside of the spans that differ stays clean, and must hear of edits of the new one.
             link(self, self.inputs)
         else:
@@ -108,7 +109,7 @@ class Variable(Settable[T], Generic[T]):
         return values[1]
 
 
-def _constant(value: Any, name: str) -> Any:
+def _constant(value: Operand, name: str) -> Operand:
     """A value that can be shared: arrays are frozen copies, lists of numbers become arrays."""
     if isinstance(value, Signal):
         return value
@@ -122,9 +123,10 @@ def _constant(value: Any, name: str) -> Any:
             raise ShapeError(f"{name}: {value!r} holds nan")
         return freeze(array)
     if isinstance(value, float | np.floating):
-        if math.isnan(value):
+        number = float(value)  # pyright: ignore[reportUnknownArgumentType]
+        if math.isnan(number):
             raise ShapeError(f"{name}: nan is not a value")
-        return float(value)
+        return number
     if isinstance(value, np.bool_ | np.integer):
         return value.item()
     return value
@@ -185,9 +187,8 @@ class Parameter(Signal[T], Axis):
         if not name.isidentifier() or name in ("t", "self"):
             error = ParameterError(f"{name!r} is not a name for a parameter")
             raise hint(error, "it is used as a keyword: letters, digits and _, and not `t`")
-        if bounds is not None:
-            if len(bounds) != 2 or not bounds[0] <= bounds[1]:
-                raise ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
+        if bounds is not None and (len(bounds) != 2 or not bounds[0] <= bounds[1]):
+            raise ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
         self.bounds = bounds
         self.doc = doc
         self.default = None
@@ -200,8 +201,18 @@ class Parameter(Signal[T], Axis):
         Raises:
             ParameterError: it is of another type, or out of bounds.
         """
-        plain = _plain(value)
-        kind, given = type(self.default), type(plain)
+        plain = self._converted(value)
+        if self.bounds is not None:
+            lowest, highest = self.bounds
+            values: tuple[Any, ...] = plain if type(plain) is tuple else (plain,)
+            if not all(lowest <= x <= highest for x in values):
+                raise ParameterError(f"{self.name}: {value!r} is not within {lowest!r} and {highest!r}")
+        return plain
+
+    def _converted(self, value: Any) -> tuple[float, ...] | float | str:
+        """The value as one of the type of the default, if it can be taken for one."""
+        plain: Any = _plain(value)
+        kind, given = type(self.default), type(plain)  # pyright: ignore[reportUnknownVariableType]
         if kind is float and given in (int, bool, float):
             plain = float(plain) + 0.0  # -0.0 becomes 0.0: equal values are one value
             if plain != plain:
@@ -222,11 +233,6 @@ class Parameter(Signal[T], Axis):
                     error, f"its default is {self.default!r}; a default of {float(self.default)!r} takes any number"
                 )
             raise error
-        if self.bounds is not None:
-            lowest, highest = self.bounds
-            values = plain if given is tuple else (plain,)
-            if not all(lowest <= x <= highest for x in values):
-                raise ParameterError(f"{self.name}: {value!r} is not within {lowest!r} and {highest!r}")
         return plain
 
     def present(self, value: Any) -> Any:
@@ -234,7 +240,7 @@ class Parameter(Signal[T], Axis):
         return freeze(np.array(value, dtype=np.float64)) if type(value) is tuple else value
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Operand) -> Any:
     """The value in Python's own types: numbers, truth values, strings, tuples of floats."""
     if isinstance(value, np.generic):
         value = value.item()
@@ -248,8 +254,8 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _described(default: Any) -> str:
+def _described(default: Operand) -> str:
     if isinstance(default, tuple):
         return f"{len(default)} numbers"
-    names = {float: "a number", int: "a whole number", bool: "True or False", str: "a string"}
+    names: dict[Any, str] = {float: "a number", int: "a whole number", bool: "True or False", str: "a string"}
     return names.get(type(default), f"a {type(default).__name__}")
