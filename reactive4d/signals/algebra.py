@@ -5,21 +5,24 @@ what it does (`operator` and `operands`), from which calculus makes derivatives;
 answers at once (`vectorised`). Numbers follow IEEE 754, as in NumPy: dividing by zero gives inf or nan, not an error.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
 import numpy as np
 
+from reactive4d.arrays import freeze
 from reactive4d.engine import Formula, sealed
 from reactive4d.errors import ShapeError, hint
 from reactive4d.signals import kernels
 from reactive4d.signals.facade import Operand, Signal
+from reactive4d.signals.functions import finished
 from reactive4d.signals.kernels import Operator
 
-__all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operate", "vec"]
+__all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operand", "operate", "vec"]
 
 T = TypeVar("T")
 MOST_SHOWN = 3
+MOST_OPERANDS = 8
 
 
 class Operation(Signal[T], Formula):
@@ -55,7 +58,19 @@ def _shown(x: Any, depth: int) -> str:
         return x.name if isinstance(x, Signal) else kernels.shown(x)
     if depth == 0:
         return "…"
-    return x.operator.text([_shown(y, depth - 1) for y in x.operands])
+    return x.operator.text([_enclosed(x, i, y, _shown(y, depth - 1)) for i, y in enumerate(x.operands[:MOST_OPERANDS])])
+
+
+# Operators that are written between or before their operands, without parentheses of their own.
+_BARE = {"mul", "matmul", "truediv", "floordiv", "mod", "pow", "neg", "pos", "not"}
+
+
+def _enclosed(x: Any, i: int, y: Any, text: str) -> str:
+    """An operand in parentheses, where it would be read otherwise."""
+    if not isinstance(y, Operation) or y.operator.name not in _BARE or text == "…":
+        return text
+    is_plain = x.operator.name not in _BARE and x.operator.name != "getitem"
+    return text if is_plain or (x.operator.name == "mul" and i == 0 and y.operator.name == "mul") else f"({text})"
 
 
 def operand(x: Operand) -> Any:
@@ -65,7 +80,7 @@ def operand(x: Operand) -> Any:
     if isinstance(x, list | tuple):
         if any(isinstance(y, Signal) for y in x):
             return vec(*x)
-        x = np.array(x, dtype=np.float64)
+        return freeze(kernels.numbers(x, "arithmetic"))
     if isinstance(x, np.ndarray):
         array = np.array(x)
         array.flags.writeable = False
@@ -75,29 +90,25 @@ def operand(x: Operand) -> Any:
 
 def operate(name: str, operands: tuple[Any, ...]) -> Signal[Any]:
     """A signal of an operator, by its name in Python."""
-    from reactive4d.signals.pieces import Stepping
-
-    operator = kernels.OPERATORS[name]
     if name == "getitem":
         return Operation(kernels.item(operands[1]), (operands[0],))
+    return operated(kernels.OPERATORS[name], operands)
+
+
+def operated(operator: Operator, operands: Iterable[Any]) -> Signal[Any]:
+    """A signal of an operator, which knows its pieces if there are any."""
+    from reactive4d.signals.pieces import Bending, Stepping
+
     made = tuple([operand(x) for x in operands])
-    if operator.is_step:
-        return Stepping(operator, made)
-    return Operation(operator, made)
+    return (Stepping if operator.is_step else Bending if operator.is_bend else Operation)(operator, made)
 
 
 def of_ufunc(ufunc: Any, method: str, inputs: tuple[Any, ...], options: dict[str, Any]) -> Signal[Any]:
     """A signal of a NumPy ufunc of signals."""
-    from reactive4d.signals.pieces import Stepping
-
     if method != "__call__" or options or ufunc.nout != 1:
         error = TypeError(f"np.{ufunc.__name__} on signals: only the plain call with one result, without options")
         raise hint(error, "lift(function)(signal) applies any function of values")
-    operator = kernels.ufunc(ufunc)
-    made = tuple([operand(x) for x in inputs])
-    if operator.is_step:
-        return Stepping(operator, made)
-    return Operation(operator, made)
+    return operated(kernels.ufunc(ufunc), inputs)
 
 
 def of_function(function: Any, arguments: Any, options: dict[str, Any]) -> Signal[Any]:
@@ -108,12 +119,38 @@ def of_function(function: Any, arguments: Any, options: dict[str, Any]) -> Signa
         return where(*arguments)
     if "out" in options:
         raise TypeError(f"np.{function.__name__} on signals has no `out`")
-    return Operation(kernels.function(function, options), tuple([_gathered(x) for x in arguments]))
+    live = [*_signals(arguments)] if any(isinstance(x, list | tuple) for x in arguments) else []
+    if not any(True for _ in _signals(options)) and all(any(x is y for y in arguments) for x in live):
+        return operated(kernels.function(function, options), arguments)
+    # Signals inside of sequences, or named: they are put back in their places when the function is called.
+    parts = [*_signals((arguments, options))]
+
+    def call(*values: Any) -> Any:
+        found = iter(values)
+        filled, named = _filled((arguments, options), found)
+        return function(*filled, **named)
+
+    return Operation(kernels.function(kernels.named(call, function.__name__), {}), tuple(parts))
 
 
-def _gathered(x: Operand) -> Any:
-    """A sequence with signals in it as one signal, as NumPy makes one array of a sequence."""
-    return vec(*x) if isinstance(x, list | tuple) and any(isinstance(y, Signal) for y in x) else x
+def _signals(x: Any) -> Iterator[Signal[Any]]:
+    """The signals in nested sequences and mappings."""
+    if isinstance(x, Signal):
+        yield x
+    elif isinstance(x, list | tuple):
+        for y in x:
+            yield from _signals(y)
+    elif isinstance(x, dict):
+        yield from _signals(list(x.values()))
+
+
+def _filled(x: Any, values: Iterator[Any]) -> Any:
+    """The same with values in the places of the signals."""
+    if isinstance(x, Signal):
+        return next(values)
+    if isinstance(x, list | tuple):
+        return type(x)([_filled(y, values) for y in x])
+    return {name: _filled(y, values) for name, y in x.items()} if isinstance(x, dict) else x
 
 
 def vec(x: Any, y: Any, *rest: Any) -> Signal[Any]:
@@ -123,7 +160,7 @@ def vec(x: Any, y: Any, *rest: Any) -> Signal[Any]:
     >>> vec(r4.time, 0, 1).at(2.0).tolist()
     [2.0, 0.0, 1.0]
     """
-    parts = tuple([operand(part) for part in (x, y, *rest)])
+    parts = tuple([part if isinstance(part, list | tuple) else operand(part) for part in (x, y, *rest)])
     for part in parts:
         if not isinstance(part, Signal) and not isinstance(part, float | int):
             error = ShapeError(f"vec: expected numbers or signals of numbers, got {part!r}")
@@ -145,11 +182,18 @@ def lift(function: Callable[..., T]) -> Callable[..., Signal[T]]:
     >>> label(r4.time, 1).at(2.0)
     '2.0 m'
     """
-    name = getattr(function, "__name__", "function")
+    name = finished(function, "lift")
     operator = kernels.python(sealed(function, name), name)
 
-    def lifted(*arguments: Any) -> Signal[T]:
-        return Operation(operator, arguments)
+    def lifted(*arguments: Any, **named: Any) -> Signal[T]:
+        if not named:
+            return Operation(operator, arguments)
+        count, names = len(arguments), tuple(named)
+
+        def call(*values: Any) -> T:
+            return function(*values[:count], **dict(zip(names, values[count:], strict=True)))
+
+        return Operation(kernels.python(sealed(call, name), name), (*arguments, *named.values()))
 
     lifted.__name__ = name
     lifted.__doc__ = function.__doc__
@@ -159,8 +203,10 @@ def lift(function: Callable[..., T]) -> Callable[..., Signal[T]]:
 def equal(a: Any, b: Any) -> Signal[bool]:
     """Whether two values are equal, as a signal (`a == b` asks whether they are one and the same object).
 
+    Arrays are equal as a whole; `np.equal(a, b)` compares them number by number.
+
     >>> import reactive4d as r4
     >>> equal(r4.time, 2.0).at(2.0)
     True
     """
-    return operate("eq", (a, b))
+    return operate("equal", (a, b))
