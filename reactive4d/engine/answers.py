@@ -101,7 +101,13 @@ def store(
 def renew(engine: "Engine", segment: Segment, value: Any, reads: tuple[Any, ...], stamps: tuple[int, ...]) -> bool:
     """Give a segment in check its new answer, and keep the old one for undoing; True if they are the same."""
     before = segment.value
-    segment.older = ((before, segment.stamp, segment.reads, segment.stamps), *segment.older[: KEPT - 1])
+    older = segment.older
+    if older:
+        older.append((before, segment.stamp, segment.reads, segment.stamps))
+        if len(older) > KEPT:
+            del older[0]
+    else:
+        segment.older = [(before, segment.stamp, segment.reads, segment.stamps)]
     segment.retired = engine.revivals
     segment.reads = reads
     segment.stamps = stamps
@@ -174,8 +180,7 @@ def stand(
     if lo > segment.lo or hi < segment.hi:
         split(table, segment, lo, hi)
     if old is not None:
-        rest = tuple([other for other in segment.older if other is not old])
-        segment.older = (content(segment), *rest)
+        segment.older = [*(other for other in segment.older if other is not old), content(segment)]
         segment.retired = engine.revivals - 1
         segment.value, segment.stamp, segment.reads, segment.stamps = old
     if segment.reads is not cell.linked:
@@ -220,7 +225,7 @@ def _merge(table: Table, segment: Segment) -> None:
                 del table.starts[j]
 
 
-def _alike(these: tuple[Content, ...], those: tuple[Content, ...]) -> bool:
+def _alike(these: list[Content], those: list[Content]) -> bool:
     """Whether two segments said the same before: an older content holds only where it was found."""
     return len(these) == len(those) and all(
         a[1] == b[1] and a[3] == b[3] and a[2] == b[2] for a, b in zip(these, those, strict=True)

@@ -90,7 +90,7 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
             stand(engine, cell, table, segment, lo, hi, point, None)
             return None
         if segment.older and engine.revivals > segment.retired:
-            for old in segment.older:
+            for old in reversed(segment.older):
                 if old[3] == these and old[2] == reads:
                     stand(engine, cell, table, segment, lo, hi, point, old)
                     return None

@@ -131,7 +131,7 @@ def _candidates(
         if segment is not None:
             found.append((segment, None, table))
             if segment.older and engine.revivals > segment.retired:
-                found.extend([(segment, old, table) for old in segment.older])
+                found.extend([(segment, old, table) for old in reversed(segment.older)])
     return found
 
 

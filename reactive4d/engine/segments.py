@@ -51,7 +51,7 @@ class Segment:
         self.clean = True
         self.reads = reads
         self.stamps = stamps
-        self.older: tuple[Content, ...] = EMPTY
+        self.older: list[Content] = EMPTY  # the last one last
         self.retired = 0
         self.touched = touched
 
@@ -59,7 +59,7 @@ class Segment:
         """The same answer over a part of the interval."""
         segment = Segment(lo, hi, self.value, self.stamp, self.reads, self.stamps, self.touched)
         segment.clean = self.clean
-        segment.older = self.older
+        segment.older = list(self.older) if self.older else EMPTY
         segment.retired = self.retired
         return segment
 
