@@ -5,9 +5,7 @@ from reactive4d.engine import engine
 
 
 def test_new_keys_over_keys_touch_only_the_spans_that_differ() -> None:
-    """
-    keys --> radius --> area; the new keys differ at 2 s only.
-    """
+    """The new keys differ at 2 s only: keys --> radius --> area."""
     radius = r4.Variable(r4.keys({0: 0.0, 1: 1.0, 2: 2.0, 3: 3.0, 9: 3.0}), name="radius")
     area = radius * radius
     times = (0.5, 2.5, 5.0)
@@ -24,7 +22,7 @@ def test_new_keys_over_keys_touch_only_the_spans_that_differ() -> None:
 
 
 def test_keys_that_were_assigned_are_followed_everywhere() -> None:
-    """An edit of the new keys is seen also where they said what the old ones had said, and an edit of the old is not."""
+    """An edit of the new keys is seen also where they said what the old ones had, and an edit of the old is not."""
     old, new = r4.keys({0: 0.0, 10: 10.0}), r4.keys({0: 0.0, 10: 10.0})
     x = r4.Variable(old, name="x")
     double = 2 * x
