@@ -16,13 +16,14 @@ from reactive4d.errors import ShapeError, hint
 from reactive4d.signals import kernels
 from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.functions import finished
-from reactive4d.signals.kernels import Operator
+from reactive4d.signals.kernels import MAPPING, SEQUENCE, Operator
 
-__all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operand", "operate", "vec"]
+__all__ = ["Operation", "equal", "lift", "of_function", "of_ufunc", "operand", "operate", "shown", "vec"]
 
 T = TypeVar("T")
 MOST_SHOWN = 3
 MOST_OPERANDS = 8
+MOST_LETTERS = 80
 
 
 class Operation(Signal[T], Formula):
@@ -46,19 +47,33 @@ class Operation(Signal[T], Formula):
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
         """What it does, in the words of who wrote it, as far as that is short."""
-        return _shown(self, MOST_SHOWN)
+        return shown(self)
 
     @name.setter
     def name(self, value: str) -> None:
         pass
 
 
-def _shown(x: Any, depth: int) -> str:
-    if not isinstance(x, Operation):
-        return x.name if isinstance(x, Signal) else kernels.shown(x)
+def shown(x: Any, depth: int = MOST_SHOWN) -> str:
+    """A signal or constant in the words of who wrote it, as far as that is short."""
+    if isinstance(x, Operation):
+        parts: Any = x.operands
+        write = x.operator.text
+    elif hasattr(x, "condition"):
+        parts, write = (x.condition, x.yes, x.no), _written_choice
+    elif isinstance(x, Signal):
+        name = x.name
+        return name if len(name) <= MOST_LETTERS else f"{name[: MOST_LETTERS - 1]}…"
+    else:
+        return kernels.shown(x)
     if depth == 0:
         return "…"
-    return x.operator.text([_enclosed(x, i, y, _shown(y, depth - 1)) for i, y in enumerate(x.operands[:MOST_OPERANDS])])
+    texts = [_enclosed(x, i, y, shown(y, depth - 1)) for i, y in enumerate(parts[:MOST_OPERANDS])]
+    return write([*texts, "…"] if len(parts) > MOST_OPERANDS else texts)
+
+
+def _written_choice(texts: list[str]) -> str:
+    return f"where({', '.join(texts)})"
 
 
 # Operators that are written between or before their operands, without parentheses of their own.
@@ -67,7 +82,7 @@ _BARE = {"mul", "matmul", "truediv", "floordiv", "mod", "pow", "neg", "pos", "no
 
 def _enclosed(x: Any, i: int, y: Any, text: str) -> str:
     """An operand in parentheses, where it would be read otherwise."""
-    if not isinstance(y, Operation) or y.operator.name not in _BARE or text == "…":
+    if not isinstance(x, Operation) or not isinstance(y, Operation) or y.operator.name not in _BARE or text == "…":
         return text
     is_plain = x.operator.name not in _BARE and x.operator.name != "getitem"
     return text if is_plain or (x.operator.name == "mul" and i == 0 and y.operator.name == "mul") else f"({text})"
@@ -137,20 +152,20 @@ def _signals(x: Any) -> Iterator[Signal[Any]]:
     """The signals in nested sequences and mappings."""
     if isinstance(x, Signal):
         yield x
-    elif isinstance(x, list | tuple):
-        for y in x:
-            yield from _signals(y)
-    elif isinstance(x, dict):
-        yield from _signals(list(x.values()))
+    elif isinstance(x, SEQUENCE):
+        for part in x:
+            yield from _signals(part)
+    elif isinstance(x, MAPPING):
+        yield from _signals(tuple(x.values()))
 
 
 def _filled(x: Any, values: Iterator[Any]) -> Any:
     """The same with values in the places of the signals."""
     if isinstance(x, Signal):
         return next(values)
-    if isinstance(x, list | tuple):
-        return type(x)([_filled(y, values) for y in x])
-    return {name: _filled(y, values) for name, y in x.items()} if isinstance(x, dict) else x
+    if isinstance(x, SEQUENCE):
+        return type(x)([_filled(part, values) for part in x])
+    return {name: _filled(part, values) for name, part in x.items()} if isinstance(x, MAPPING) else x
 
 
 def vec(x: Any, y: Any, *rest: Any) -> Signal[Any]:
@@ -160,16 +175,18 @@ def vec(x: Any, y: Any, *rest: Any) -> Signal[Any]:
     >>> vec(r4.time, 0, 1).at(2.0).tolist()
     [2.0, 0.0, 1.0]
     """
-    parts = tuple([part if isinstance(part, list | tuple) else operand(part) for part in (x, y, *rest)])
-    for part in parts:
-        if not isinstance(part, Signal) and not isinstance(part, float | int):
+    parts: list[Any] = []
+    for part in (x, y, *rest):
+        made: Any = part if isinstance(part, SEQUENCE) else operand(part)
+        if not isinstance(made, Signal) and (not isinstance(made, float | int) or made != made):
             error = ShapeError(f"vec: expected numbers or signals of numbers, got {part!r}")
             raise hint(error, "vec(x, y, z) takes the components one by one")
+        parts.append(made)
     if not any(isinstance(part, Signal) for part in parts):
         from reactive4d.signals.sources import Variable
 
         return Variable([float(part) for part in parts], name="vec")
-    return Operation(kernels.VECTOR, parts)
+    return Operation(kernels.VECTOR, tuple(parts))
 
 
 def lift(function: Callable[..., T]) -> Callable[..., Signal[T]]:

@@ -22,6 +22,7 @@ from reactive4d.engine.frames import CHANGED, LOCK, here
 from reactive4d.engine.kinds import AXIS, SOURCE
 from reactive4d.engine.links import ANYWHERE, add_link
 from reactive4d.engine.points import Point
+from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.shelves import Shelves
 from reactive4d.engine.walks import wait_for_transaction
 from reactive4d.errors import TimeError
@@ -31,16 +32,18 @@ from reactive4d.signals.settables import Settable
 
 __all__ = ["as_times", "batch"]
 
+PAIR: Any = tuple
 RESTARTS = 3  # after which edits wait
 
 
 class Remembered:
     """The answers at an array of times, and the span that they lie in."""
 
-    __slots__ = ("axes", "hi", "key", "lo", "value")
+    __slots__ = ("axes", "followed", "hi", "key", "lo", "value")
 
     def __init__(self, value: Any, lo: float, hi: float, axes: tuple[Any, ...], key: tuple[Any, ...]) -> None:
         self.value = value
+        self.followed: list[tuple[Settable[Any], Any]] = []  # to what they were set
         self.lo = lo
         self.hi = hi
         self.axes = axes
@@ -147,7 +150,8 @@ def _recalled(cell: Cell, digest: bytes, point: Point | None) -> Remembered | No
         return None
     for (known, axes, key), found in list(shelves.batches.items()):
         if known == digest and key == _key(axes, point):
-            return found
+            # Other keys that say the same at these times are no edit of them, but are edited in their own ways.
+            return found if all(x.content is content for x, content in found.followed) else None
     return None
 
 
@@ -168,6 +172,7 @@ def _remember(cell: Cell, digest: bytes, ts: Any, point: Point | None, walk: "_W
     key = _key(axes, point)
     kept = Remembered(value, float(ts.min()), float(ts.max()), axes, key)
     cell.shelves.batches[digest, axes, key] = kept
+    kept.followed = [(x, x.content) for x in walk.leaves if isinstance(x, Settable) and hasattr(x.content, "curve")]
     for source, is_mapped in walk.leaves.items():
         if source is not cell and not source.unchanging:
             add_link(cell, source, ANYWHERE if is_mapped else None)
@@ -191,7 +196,7 @@ class _Walk:
         self.known: dict[tuple[Any, bytes], Any] = {}
         self.digests: dict[int, tuple[Any, bytes]] = {}
 
-    def leaf(self, cell: Cell, ts: Any) -> None:
+    def leaf(self, cell: Any, ts: Any) -> None:
         """Note that the answers depend on a cell, at these times."""
         self.leaves[cell] = self.leaves.get(cell, False) or ts is not self.ts
 
@@ -226,7 +231,7 @@ class _Walk:
         except Exception as error:
             raise _NotTogetherError from error
         if isinstance(value, ARRAY):
-            value.flags.writeable = False
+            value.setflags(write=False)
         return value
 
     def _other(self, cell: Any, ts: Any) -> Any:
@@ -270,13 +275,13 @@ def _order(root: Any) -> tuple[list[tuple[Any, Any]], dict[Any, int]]:
     seen: set[Any] = set()
     todo: list[Any] = [root]
     while todo:
-        cell = todo.pop()
-        if type(cell) is tuple:
+        cell: Any = todo.pop()
+        if type(cell) is PAIR:
             order.append(cell)
         elif cell not in seen:
             seen.add(cell)
-            inputs = cell.inputs if cell.kind != SOURCE and hasattr(cell, "vectorised") else None
-            if type(inputs) is not tuple:
+            inputs: Any = cell.inputs if cell.kind != SOURCE and hasattr(cell, "vectorised") else None
+            if inputs is None or type(inputs) is MappedReads:
                 order.append((cell, None))
                 continue
             todo.append((cell, inputs))

@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 
 from reactive4d.arrays import ARRAY
-from reactive4d.errors import ShapeError
-from reactive4d.signals.algebra import operand
+from reactive4d.errors import ShapeError, hint
+from reactive4d.signals.algebra import operand, shown
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.kernels import SEQUENCE, repeated, stacked
 
 __all__ = ["Choice", "where"]
 
@@ -18,10 +19,19 @@ class Choice(Signal[Any]):
     __slots__ = ("condition", "no", "yes")
 
     def __init__(self, condition: Signal[Any], yes: Any, no: Any) -> None:
-        super().__init__(name="where", engine=condition.engine)
         self.condition = condition
         self.yes = yes
         self.no = no
+        super().__init__(name="", engine=condition.engine)
+
+    @property
+    def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """What it chooses between, as far as that is short."""
+        return shown(self)
+
+    @name.setter
+    def name(self, value: str) -> None:
+        pass
 
     def rule(self) -> Any:
         """Read the condition, then only what it chooses."""
@@ -44,7 +54,7 @@ class Choice(Signal[Any]):
         parts = [_all(self.yes, ts[chosen], ask), _all(self.no, ts[~chosen], ask)]
         if any(isinstance(part, tuple) for part in parts) or parts[0].shape[1:] != parts[1].shape[1:]:
             rows = [iter(part.tolist() if isinstance(part, ARRAY) and part.ndim == 1 else part) for part in parts]
-            return tuple([next(rows[0] if is_yes else rows[1]) for is_yes in chosen])
+            return stacked([next(rows[0] if is_yes else rows[1]) for is_yes in chosen])
         answer = np.empty((len(ts), *parts[0].shape[1:]), dtype=np.result_type(*parts))
         answer[chosen], answer[~chosen] = parts
         return answer
@@ -57,9 +67,7 @@ def _now(x: Any) -> Any:
 def _all(x: Any, ts: Any, ask: Any) -> Any:
     if isinstance(x, Signal):
         return ask(x, ts)
-    if isinstance(x, bool | int | float):
-        return np.full(len(ts), x)
-    return np.broadcast_to(x, (len(ts), *x.shape)) if isinstance(x, ARRAY) else (x,) * len(ts)
+    return repeated(x, len(ts))
 
 
 def where(condition: Signal[Any], yes: Any, no: Any) -> Signal[Any]:
@@ -71,5 +79,13 @@ def where(condition: Signal[Any], yes: Any, no: Any) -> Signal[Any]:
     (1.0, 2.0, (-inf, 3))
     """
     if not isinstance(condition, Signal):  # pyright: ignore[reportUnnecessaryIsInstance]
-        raise TypeError(f"where: expected a signal as condition, got {condition!r}")
-    return Choice(condition, operand(yes), operand(no))
+        error = TypeError(f"where: expected a signal as condition, got {condition!r}")
+        raise hint(error, "comparisons of signals are signals; what never changes is chosen by `yes if c else no`")
+    return Choice(condition, _branch(yes), _branch(no))
+
+
+def _branch(x: Any) -> Any:
+    """A signal or a constant; a list or tuple that is no vector is held as it is."""
+    if isinstance(x, SEQUENCE) and not all(isinstance(part, int | float | np.number | Signal) for part in x):
+        return x
+    return operand(x)

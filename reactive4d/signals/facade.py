@@ -17,7 +17,18 @@ U = TypeVar("U")
 Array = NDArray[np.float64]
 
 # What "equal" means is handed in: the engine knows no arrays.
-engine.same, engine.measure, engine.freeze = same, measure, freeze
+engine.same, engine.measure = same, measure
+
+
+def _shared(value: Any) -> Any:
+    """An answer as it is shared: frozen."""
+    if isinstance(value, Cell):
+        error = TypeError(f"the answer is a signal, {value.name}, instead of a value")
+        raise hint(error, "inside of a rule read signals by x.now(), and calculate with what they answer")
+    return freeze(value)
+
+
+engine.freeze = _shared
 
 
 class Signal(Cell, Generic[T_co]):
@@ -266,7 +277,9 @@ class Signal(Cell, Generic[T_co]):
     def __bool__(self) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it is not true or false, but at some time")
         raise hint(
-            error, "where(condition, yes, no) chooses; signal.at(t) is a value; a & b, a | b, ~a are and, or, not"
+            error,
+            "where(condition, yes, no) chooses, np.minimum and np.maximum compare; a & b, a | b, ~a are and, or, not; "
+            "signal.at(t) is a value",
         )
 
     def __iter__(self) -> NoReturn:
@@ -276,6 +289,26 @@ class Signal(Cell, Generic[T_co]):
     def __float__(self) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it is a number only at some time")
         raise hint(error, "ask s.at(t); NumPy's functions (np.sin, not math.sin) take signals")
+
+    def __int__(self) -> NoReturn:
+        error = TypeError(f"{self.name} is a signal: it is a number only at some time")
+        raise hint(error, "int(s.at(t)) is a number; np.trunc(s) and s // 1 are signals")
+
+    def __round__(self, digits: int | None = None) -> "Signal[Any]":
+        """The nearest whole number, or the nearest one with some digits, as a signal of floats."""
+        return np.rint(self) if digits is None else np.round(self, digits)  # pyright: ignore
+
+    def __format__(self, spec: str) -> str:
+        """As `repr`; a value can be formatted once it is known."""
+        if not spec:
+            return repr(self)
+        error = TypeError(f"{self.name} is a signal: it cannot be formatted as {spec!r}")
+        raise hint(error, f"s.map(lambda value: f'{{value:{spec}}}') is a signal of strings; s.at(t) is a value")
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        """A signal is itself and no other: it is not copied, and not pickled."""
+        error = TypeError(f"{self.name} is a signal: it cannot be copied or pickled")
+        raise hint(error, "share it, or make another one of the same content: Variable(x.value), keys(k.points)")
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> NoReturn:
         error = TypeError(f"{self.name} is a signal: it does not fit into an array")

@@ -15,11 +15,26 @@ from reactive4d.arrays import ARRAY, SCALAR, freeze
 from reactive4d.engine import sealed
 from reactive4d.errors import ShapeError, hint
 
-__all__ = ["OPERATORS", "VECTOR", "Constant", "Operator", "align", "function", "item", "named", "numbers"]
+__all__ = [
+    "MAPPING",
+    "OPERATORS",
+    "SEQUENCE",
+    "VECTOR",
+    "Constant",
+    "Operator",
+    "align",
+    "function",
+    "item",
+    "named",
+    "numbers",
+]
 __all__ += ["python", "repeated", "shown", "stacked", "ufunc"]
 
 op: Any = operator  # its functions have no types
 MOST_LETTERS = 40
+# For `isinstance`: by the classes themselves a checker would find sequences and mappings of unknown items.
+SEQUENCE: Any = (list, tuple)
+MAPPING: Any = dict
 _LARGEST = 1 << 62
 _WIDE = (np.dtype(np.float64), np.dtype(np.int64), np.dtype(np.bool_))
 
@@ -110,13 +125,13 @@ class Operator:
         is_whole, has_numbers, has_narrow = self.is_whole, False, False
         for x in values:
             if type(x) is Constant:
-                x = x.value
-                kind = type(x)
+                value = x.value
+                kind: Any = type(value)  # pyright: ignore[reportUnknownVariableType]
                 if kind is float:
                     is_whole = False
                 elif kind is ARRAY:
                     is_whole = False
-                    has_narrow = has_narrow or x.dtype not in _WIDE
+                    has_narrow = has_narrow or value.dtype not in _WIDE
                 elif kind is not int and kind is not bool:
                     return False
             elif not isinstance(x, ARRAY):
@@ -181,7 +196,8 @@ def repeated(value: Any, count: int) -> Any:
     """One answer as those at many times."""
     if isinstance(value, float | bool) or (isinstance(value, int) and abs(value) < _LARGEST):
         return np.full(count, value)
-    return np.broadcast_to(value, (count, *value.shape)) if isinstance(value, ARRAY) else (value,) * count
+    array: Any = value
+    return np.broadcast_to(array, (count, *array.shape)) if isinstance(value, ARRAY) else (value,) * count
 
 
 def stacked(answers: list[Any]) -> Any:
@@ -489,11 +505,12 @@ def _cross(a: Any, b: Any) -> Any:
 def _norm(x: Any) -> Any:
     if x.ndim != 2:
         raise ShapeError("norm: expected vectors")
-    return np.sqrt(np.einsum("ni,ni->n", x, x))
+    squares: Any = np.einsum("ni,ni->n", x, x)
+    return np.sqrt(squares)
 
 
 def _rounded(x: Any, decimals: int = 0) -> Any:
-    return np.round(x, decimals)
+    return np.round(x, decimals)  # pyright: ignore[reportUnknownVariableType]
 
 
 # Functions that are no ufuncs, for which there is a way to do them for many times at once.

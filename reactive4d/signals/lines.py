@@ -14,7 +14,7 @@ import numpy as np
 from reactive4d.engine import moment
 from reactive4d.signals.algebra import Operation
 from reactive4d.signals.crossings import end, start
-from reactive4d.signals.facade import Signal
+from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.sources import Time
 
 __all__ = ["Line", "could_be_line", "line"]
@@ -53,27 +53,36 @@ def could_be_line(x: Any) -> bool:
     return False
 
 
-def line(x: Any) -> Line | None:
+def line(x: Operand) -> Line | None:
     """How a signal runs round the asked time; only inside of an evaluation. What it depends on is noted."""
     if not isinstance(x, Signal):
         return _constant(x)
+    return _constant(x.now()) if not could_be_line(x) else _running(x)
+
+
+def _running(x: Any) -> Line | None:
     if isinstance(x, Time):
         return Line(-INF, INF, _same, 0.0, 1.0, 0.0)
     straight: Any = getattr(x, "straight", None)
     if straight is not None:
         return straight(moment())
-    if isinstance(x, Operation) and could_be_line(x):
-        return _operated(x)
-    return _constant(x.now())  # it holds round the asked time: what is read narrows the answer
+    return _operated(x)
 
 
 def _constant(x: Any) -> Line | None:
+    """A number as a line; one that was read narrows the answer to where it holds."""
     if type(x) is not float and type(x) is not int:
         return None
+    number: float | int = x
     try:
-        return Line(-INF, INF, lambda t: x, 0.0, 0.0, float(x))
+        offset = float(number)
     except OverflowError:  # a whole number beyond all floats
         return None
+
+    def at(t: float) -> Any:
+        return number
+
+    return Line(-INF, INF, at, 0.0, 0.0, offset)
 
 
 def _same(t: float) -> float:

@@ -1,6 +1,9 @@
 """Where signals begin: time, variables, parameters."""
 
 import math
+import unicodedata
+from keyword import iskeyword
+from numbers import Real
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -10,6 +13,7 @@ from reactive4d.engine import Axis, Engine, Source
 from reactive4d.engine.links import link
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.signals.facade import Operand, Signal
+from reactive4d.signals.kernels import numbers
 from reactive4d.signals.settables import Settable
 
 __all__ = ["Parameter", "Time", "Variable", "time"]
@@ -114,14 +118,13 @@ def _constant(value: Operand, name: str) -> Operand:
     if isinstance(value, Signal):
         return value
     if isinstance(value, list | np.ndarray) or (isinstance(value, tuple) and _is_numeric(value)):
-        try:
-            array = np.array(value, dtype=np.float64)
-        except (TypeError, ValueError):
-            error = ShapeError(f"{name}: expected numbers, got {value!r}")
-            raise hint(error, "for a vector of signals use vec(x, y, z)") from None
+        array = numbers(value, name)
         if np.isnan(array).any():
             raise ShapeError(f"{name}: {value!r} holds nan")
-        return freeze(array)
+        return freeze(array) if array.ndim else array.item()
+    if isinstance(value, tuple) and any(isinstance(x, Signal) for x in value):
+        error = ShapeError(f"{name}: expected values, got a tuple with signals in it, {value!r}")
+        raise hint(error, "vec(x, y, z) makes a vector of signals")
     if isinstance(value, float | np.floating):
         number = float(value)  # pyright: ignore[reportUnknownArgumentType]
         if math.isnan(number):
@@ -133,9 +136,11 @@ def _constant(value: Operand, name: str) -> Operand:
 
 
 def _is_numeric(value: tuple[Any, ...]) -> bool:
-    return bool(value) and all(
-        isinstance(x, int | float | np.number) or (type(x) is tuple and _is_numeric(x)) for x in value
-    )
+    """Whether these are numbers, or equally long rows of numbers; any other tuple is held as it is."""
+    rows: list[tuple[Any, ...]] = [x for x in value if type(x) is tuple]
+    if rows:
+        return len(rows) == len(value) and len({len(row) for row in rows}) == 1 and all(map(_is_numeric, rows))
+    return bool(value) and all(isinstance(x, int | float | np.number) for x in value)
 
 
 def refuse_reading_itself(target: Signal[Any], content: Signal[Any]) -> None:
@@ -166,7 +171,7 @@ class Parameter(Signal[T], Axis):
         doc: what it means, with its unit.
 
     Raises:
-        ParameterError: the name is no identifier, or the default does not lie within the bounds.
+        ParameterError: the name cannot be a keyword, or the default is of another type or out of bounds.
 
     >>> length = Parameter("length", 1.0, bounds=(0.2, 2.0), doc="length of the rod [m]")
     >>> (2 * length).at(0.0), (2 * length).at(0.0, length=1.5)
@@ -184,15 +189,16 @@ class Parameter(Signal[T], Axis):
         doc: str = "",
         engine: Engine | None = None,
     ) -> None:
-        if not name.isidentifier() or name in ("t", "self"):
+        if not isinstance(name, str) or not name.isidentifier() or iskeyword(name) or name == "t":  # pyright: ignore
             error = ParameterError(f"{name!r} is not a name for a parameter")
-            raise hint(error, "it is used as a keyword: letters, digits and _, and not `t`")
-        if bounds is not None and (len(bounds) != 2 or not bounds[0] <= bounds[1]):
-            raise ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
-        self.bounds = bounds
+            raise hint(error, "it is used as a keyword: letters, digits and _, and neither `t` nor a word of Python's")
+        name = unicodedata.normalize("NFKC", name)  # as Python does with the keywords of a call
         self.doc = doc
-        self.default = None
         self.default = _plain(default)
+        if type(self.default) not in (float, int, bool, str, tuple):
+            error = ParameterError(f"{name}: {default!r} cannot be the default of a parameter")
+            raise hint(error, "a number, True or False, a string, or a tuple of numbers; a Variable holds anything")
+        self.bounds = bounds if bounds is None else _in_order(bounds, name, self.default)
         super().__init__(name, default, engine=engine)
 
     def admit(self, value: Any) -> Any:
@@ -213,8 +219,11 @@ class Parameter(Signal[T], Axis):
         """The value as one of the type of the default, if it can be taken for one."""
         plain: Any = _plain(value)
         kind, given = type(self.default), type(plain)  # pyright: ignore[reportUnknownVariableType]
-        if kind is float and given in (int, bool, float):
-            plain = float(plain) + 0.0  # -0.0 becomes 0.0: equal values are one value
+        if kind is float and isinstance(plain, Real):
+            try:
+                plain = float(plain) + 0.0  # -0.0 becomes 0.0: equal values are one value
+            except OverflowError:
+                raise ParameterError(f"{self.name}: {value!r} is too large") from None
             if plain != plain:
                 raise ParameterError(f"{self.name}: nan is not a value")
         elif (
@@ -226,7 +235,7 @@ class Parameter(Signal[T], Axis):
         elif kind is tuple and given is tuple and len(plain) == len(self.default):
             if any(x != x for x in plain):
                 raise ParameterError(f"{self.name}: {value!r} holds nan")
-        elif given is not kind:
+        elif given is not kind or kind is tuple:
             error = ParameterError(f"{self.name}: expected {_described(self.default)}, got {value!r}")
             if kind is int and given is float:
                 raise hint(
@@ -248,10 +257,19 @@ def _plain(value: Operand) -> Any:
         value = value.tolist()
     if isinstance(value, list | tuple):
         try:
-            return tuple([float(x) + 0.0 for x in value])
-        except (TypeError, ValueError):
-            raise ParameterError(f"expected numbers, got {value!r}") from None
+            return tuple([float(x) + 0.0 for x in value]) if all(isinstance(x, Real) for x in value) else value
+        except OverflowError:
+            return value
     return value
+
+
+def _in_order(bounds: Any, name: str, default: Any) -> tuple[Any, Any]:
+    """Bounds that are two numbers, the lower one first."""
+    plain: Any = _plain(bounds)
+    if type(plain) is not tuple or len(plain) != 2 or not plain[0] <= plain[1] or isinstance(default, str):  # pyright: ignore
+        error = ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
+        raise hint(error, "two numbers, which are both allowed; -inf and inf where there is no bound")
+    return tuple(bounds)
 
 
 def _described(default: Operand) -> str:
