@@ -21,7 +21,7 @@ class Failure:
         self.text = "" if source is not None else "".join(traceback.format_exception(error))
 
     def __repr__(self) -> str:
-        return f"<{type(self.error).__name__}: {self.error}>"
+        return f"<{type(self.error).__name__}: {_message(self.error)}>"
 
     @property
     def nbytes(self) -> int:
@@ -47,17 +47,37 @@ def raised(answer: Failure) -> Exception:
     kind = type(answer.error)
     try:
         error = copy.copy(answer.error)
-        if type(error) is not kind or str(error) != str(answer.error):
+        if type(error) is not kind or _message(error) != _message(answer.error):
             raise TypeError
     except Exception:  # noqa: BLE001  its class wants other arguments than it keeps: copy it without its `__init__`
-        error = kind.__new__(kind, *answer.error.args)
-        error.args = answer.error.args
-        error.__dict__.update(answer.error.__dict__)
+        error = _remade(answer.error)
     error.__traceback__ = None
     error.__cause__ = answer.error.__cause__
     error.__notes__ = list(getattr(answer.error, "__notes__", ()))
     for note in _path(answer):
         error.add_note(note)
+    return error
+
+
+def _message(error: Exception) -> str:
+    """What an exception says; its class may fail to say it."""
+    try:
+        return str(error)
+    except Exception:  # noqa: BLE001  the user's own `__str__`
+        return "<no message>"
+
+
+def _remade(error: Exception) -> Exception:
+    """A copy of an exception without its `__init__`, and if need be without its `__new__`; at the worst, itself."""
+    kind = type(error)
+    for new in (kind.__new__, Exception.__new__):
+        try:
+            made: Exception = new(kind, *error.args)
+        except Exception:  # noqa: BLE001  it wants other arguments there too
+            continue
+        made.args = error.args
+        made.__dict__.update(error.__dict__)
+        return made
     return error
 
 
@@ -77,7 +97,7 @@ def _path(answer: Failure) -> list[str]:
 
 def same_failure(a: Any, b: Any, *, same: Callable[[Any, Any], bool]) -> bool:
     """Whether two failures say the same: the same type of exception, the same message and arguments."""
-    if type(a.error) is not type(b.error) or str(a.error) != str(b.error):
+    if type(a.error) is not type(b.error) or _message(a.error) != _message(b.error):
         return False
     mine, its = a.error.args, b.error.args
     return len(mine) == len(its) and all(same(x, y) for x, y in zip(mine, its, strict=True))
