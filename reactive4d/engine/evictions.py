@@ -87,8 +87,12 @@ def weigh(engine: "Engine", cell: "Cell") -> int:
                         seen.add(id(old[0]))
                         total += _size(engine, old[0])
     if cell.shelves is not None:
-        total += sum(SEGMENT + engine.measure(batch.value) for batch in cell.shelves.batches.values())
+        total += sum(_weigh_batch(engine, key, batch) for key, batch in cell.shelves.batches.items())
     return total
+
+
+def _weigh_batch(engine: "Engine", key: Any, batch: Any) -> int:
+    return SEGMENT + engine.measure(batch.value) + len(key[0])
 
 
 def _pay(engine: "Engine", cell: "Cell", segment: Segment, turn: float) -> float:
@@ -138,8 +142,8 @@ def trim(engine: "Engine") -> None:
     goal = engine.budget - engine.budget // 32
     if engine.bytes <= engine.budget:
         return
-    for _ in range(4):
-        _sweep(engine, engine.bytes - goal)
+    for turn in range(4):
+        _sweep(engine, engine.bytes - goal, batches=turn < 2)
         if engine.bytes <= goal:
             return
     # Only latest answers are left, which stay. Do not look again before a good deal has come on top.
@@ -157,8 +161,8 @@ def _evictable(cell: "Cell") -> list[tuple[Table, Segment]]:
     return [(table, segment) for table in tables(cell) for segment in table.segments if segment is not latest]
 
 
-def _sweep(engine: "Engine", need: int) -> None:
-    """One turn of the hand: free `need` bytes from what pays least, judged by a sample."""
+def _sweep(engine: "Engine", need: int, *, batches: int = 1) -> None:
+    """One turn of the hand: free `need` bytes from what pays least, judged by a sample; few batches are kept."""
     keepers = engine.keepers
     if not keepers:
         return
@@ -190,6 +194,7 @@ def _sweep(engine: "Engine", need: int) -> None:
         if cell is None or cell.busy is not None:
             continue
         _drop_older(engine, cell)
+        _drop_batches(engine, cell, batches)
         for table, segment in _evictable(cell):
             if _pay(engine, cell, segment, answers) <= limit:
                 _evict(engine, cell, table, segment)
@@ -204,6 +209,19 @@ def _drop_older(engine: "Engine", cell: "Cell") -> None:
             for old in segment.older:
                 engine.bytes -= CONTENT + _size(engine, old[0])
             segment.older = EMPTY
+
+
+def _drop_batches(engine: "Engine", cell: "Cell", kept: int) -> None:
+    """Forget a cell's answers at arrays of times, but for the last ones."""
+    if cell.shelves is None:
+        return
+    batches = cell.shelves.batches
+    for key in list(batches)[: max(0, len(batches) - kept)]:
+        batch = batches.pop(key)
+        engine.bytes -= _weigh_batch(engine, key, batch)
+        engine.evicted += 1
+        if engine.logs:
+            engine.emit("evicted", cell, batch.lo, batch.hi)
 
 
 def _drop_emptytables(cell: "Cell") -> None:
