@@ -92,6 +92,8 @@ def express(engine: "Engine", cell: "Cell", t: float, claim: Claim | None, me: M
             engine.timed(cell, perf_counter() - started - (0.0 if frame is None else frame.nested))
     except (Cancelled, Suspended, RecursionError):
         return False
+    except MemoryError:
+        raise  # not an answer: there may be room again
     except Exception as error:  # noqa: BLE001  an exception is an answer
         passed = None if frame is None else frame.raised
         value = failure(error, cell.name, t, passed[1] if passed is not None and passed[0] is error else None)

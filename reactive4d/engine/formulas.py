@@ -109,6 +109,8 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
             engine.timed(cell, perf_counter() - started)
         if type(value) is not float:
             value = engine.freeze(value)
+    except MemoryError:
+        raise  # not an answer: there may be room again
     except Exception as error:  # noqa: BLE001  an exception is an answer
         value = failure(error, cell.name, t)
     finally:

@@ -53,6 +53,8 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
             value = cell.rule()
         if type(value) is not Failure:
             value = cell.engine.freeze(value)  # what cannot be shared is an error here too
+    except MemoryError:
+        raise  # not an answer: there may be room again
     except Exception as error:  # noqa: BLE001  an exception is an answer
         passed = task.raised
         value = failure(error, cell.name, t, passed[1] if passed is not None and passed[0] is error else None)

@@ -161,6 +161,8 @@ def _run(engine: "Engine", task: Task) -> Need:
             # The stack is full because of where this rule stands: begin again from below.
             raise Suspended(cell, task.t, task.point) from None
         value = failure(error, cell.name, task.t)
+    except MemoryError:
+        raise  # not an answer: there may be room again
     except Exception as error:  # noqa: BLE001  an exception is an answer
         passed = task.raised
         value = failure(error, cell.name, task.t, passed[1] if passed is not None and passed[0] is error else None)
