@@ -44,7 +44,9 @@ def reference(cell: "Cell") -> Any:
 
 def _joined(old: Any, new: TimeMap | None) -> Any:
     """The maps of a link, with one more: None stands for the identity alone."""
-    if old is ANYWHERE or (old is None and new is None):
+    if old is ANYWHERE or new is ANYWHERE:
+        return ANYWHERE
+    if old is None and new is None:
         return old
     maps: tuple[Any, ...] = (None,) if old is None else old
     if new in maps:
@@ -72,7 +74,7 @@ def _add(source: "Cell", ref: Any, time_map: TimeMap | None) -> None:
     if ref in readers:
         readers[ref] = _joined(readers[ref], time_map)
         return
-    readers[ref] = None if time_map is None else (time_map,)
+    readers[ref] = time_map if time_map is None or time_map is ANYWHERE else (time_map,)
     if len(readers) > readers.limit:
         for dead in [other for other in readers if other() is None]:
             del readers[dead]
