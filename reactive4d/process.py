@@ -6,7 +6,9 @@ from types import ModuleType
 from typing import Any
 
 from reactive4d.engine import Graph, engine
+from reactive4d.engine.cells import as_time
 from reactive4d.engine.events import Log
+from reactive4d.errors import hint
 from reactive4d.signals.facade import Signal
 
 __all__ = ["Budgeted", "explain", "graph", "log", "stats", "transaction"]
@@ -51,7 +53,7 @@ def explain(signal: Signal[Any], t: float, /, **parameters: Any) -> str:
     x * 2 = 2.0: computed, since nothing was remembered here; holds over [-inf, inf)
       x: source
     """
-    return engine.explain(signal, t, **parameters)
+    return _asked(signal, "explain").engine.explain(signal, as_time(t, signal), **parameters)
 
 
 def graph(*signals: Signal[Any]) -> Graph:
@@ -62,10 +64,10 @@ def graph(*signals: Signal[Any]) -> Graph:
     x * 2 (formula, never asked) <- x
     x (source, up to date)
     """
-    return engine.graph(signals)
+    return engine.graph([_asked(x, "graph") for x in signals])
 
 
-def stats(signals: Iterable[Signal[Any]] | None = None) -> dict[str, Any]:
+def stats(signals: Signal[Any] | Iterable[Signal[Any]] | None = None) -> dict[str, Any]:
     """Bytes, budget, evictions; by signal its evaluations, seconds, answers, bytes, hits and the seconds they saved.
 
     Hits are counted only while a log is open; seconds are measured at the first evaluation and every sixteenth.
@@ -73,7 +75,18 @@ def stats(signals: Iterable[Signal[Any]] | None = None) -> dict[str, Any]:
     >>> sorted(stats([]))
     ['budget', 'bytes', 'cells', 'evaluations', 'evicted', 'hits']
     """
-    return engine.stats(signals)
+    if signals is None:
+        return engine.stats()
+    chosen: list[Any] = [signals] if isinstance(signals, Signal) else list(signals)
+    return engine.stats([_asked(x, "stats") for x in chosen])
+
+
+def _asked(signal: Signal[Any], what: str) -> Signal[Any]:
+    """A signal; anything else is refused."""
+    if not isinstance(signal, Signal):  # pyright: ignore[reportUnnecessaryIsInstance]
+        error = TypeError(f"{what}: expected a signal, got {signal!r}")
+        raise hint(error, "the signal itself, not its answer; several of them one by one, graph(a, b)")
+    return signal
 
 
 class Budgeted(ModuleType):
@@ -86,4 +99,6 @@ class Budgeted(ModuleType):
 
     @budget.setter
     def budget(self, value: int) -> None:
-        engine.budget = value
+        if not isinstance(value, int | float) or isinstance(value, bool) or not value >= 0 or value != value // 1:  # pyright: ignore
+            raise ValueError(f"budget: expected a whole number of bytes, got {value!r}")
+        engine.budget = int(value)

@@ -1,6 +1,7 @@
 """The signal: a value that depends on where one asks, with the operators that make others of it."""
 
 from collections.abc import Callable
+from types import CoroutineType, GeneratorType
 from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar, overload
 
 import numpy as np
@@ -25,6 +26,10 @@ def _shared(value: Any) -> Any:
     if isinstance(value, Cell):
         error = TypeError(f"the answer is a signal, {value.name}, instead of a value")
         raise hint(error, "inside of a rule read signals by x.now(), and calculate with what they answer")
+    if isinstance(value, GeneratorType | CoroutineType):
+        kind = "generator" if isinstance(value, GeneratorType) else "coroutine"
+        error = TypeError(f"the answer is a {kind}, which answers only once")
+        raise hint(error, "return a tuple of what it yields; await outside, and set a Variable to what comes")
     return freeze(value)
 
 

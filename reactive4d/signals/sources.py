@@ -232,7 +232,7 @@ class Parameter(Signal[T], Axis):
             plain = int(plain)
         elif kind is bool and plain in (0, 1):
             plain = bool(plain)
-        elif kind is tuple and given is tuple and len(plain) == len(self.default):
+        elif kind is tuple and given is tuple and list(map(type, plain)) == list(map(type, self.default)):
             if any(x != x for x in plain):
                 raise ParameterError(f"{self.name}: {value!r} holds nan")
         elif given is not kind or kind is tuple:
@@ -266,7 +266,8 @@ def _plain(value: Operand) -> Any:
 def _in_order(bounds: Any, name: str, default: Any) -> tuple[Any, Any]:
     """Bounds that are two numbers, the lower one first."""
     plain: Any = _plain(bounds)
-    if type(plain) is not tuple or len(plain) != 2 or not plain[0] <= plain[1] or isinstance(default, str):  # pyright: ignore
+    are_numbers = type(plain) is tuple and len(plain) == 2 and all(type(x) is float for x in plain)  # pyright: ignore
+    if not are_numbers or not plain[0] <= plain[1] or isinstance(default, str):
         error = ParameterError(f"{name}: bounds {bounds!r} are not (lowest, highest)")
         raise hint(error, "two numbers, which are both allowed; -inf and inf where there is no bound")
     return tuple(bounds)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from reactive4d.engine import Affine, Formula, TimeMap
 from reactive4d.errors import TimeError, hint
+from reactive4d.signals.algebra import shown
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.maps import Creep, Discrete, Hold, Repeat, SlowInOut, forward_each
 
@@ -42,7 +43,7 @@ class Warped(Signal[T], Formula):
     __slots__ = ("original", "time_map")
 
     def __init__(self, original: Signal[T], time_map: TimeMap, *, name: str) -> None:
-        super().__init__(_itself, original, maps=(time_map,), name=f"{original.name}.{name}")
+        super().__init__(_itself, original, maps=(time_map,), name=f"{shown(original)}.{name}")
         self.original = original
         self.time_map = time_map
 
@@ -58,7 +59,7 @@ class Follow(Signal[T]):
     __slots__ = ("make", "original", "parameters")
 
     def __init__(self, original: Signal[T], make: Callable[..., TimeMap | float], *parameters: Any, name: str) -> None:
-        super().__init__(name=f"{original.name}.{name}", engine=original.engine)
+        super().__init__(name=f"{shown(original)}.{name}", engine=original.engine)
         self.original = original
         self.make = make
         self.parameters = parameters
@@ -93,7 +94,7 @@ def _warped(original: Signal[T], make: Callable[..., TimeMap], *parameters: Any)
 
 
 def _shown(x: Any) -> str:
-    return x.name if isinstance(x, Signal) else f"{x:g}" if isinstance(x, int | float) else repr(x)
+    return shown(x) if isinstance(x, Signal) else f"{x:g}" if isinstance(x, int | float) else repr(x)
 
 
 def _finite(value: Any, what: str) -> float:
@@ -288,4 +289,4 @@ def warp(signal: Signal[T], times: Signal[float]) -> Signal[T]:
     if not isinstance(times, Signal):  # pyright: ignore[reportUnnecessaryIsInstance]
         error = TimeError(f"warp: expected a signal of times, got {times!r}")
         raise hint(error, "signal.hold(t, t) is the signal as it is at t")
-    return Follow(signal, _itself, times, name=f"warp({times.name})")
+    return Follow(signal, _itself, times, name=f"warp({shown(times)})")
