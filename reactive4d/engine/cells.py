@@ -273,7 +273,10 @@ def as_time(t: Any, cell: Cell) -> float:
             raise TypeError
         number = float(t)
     except (TypeError, ValueError):
-        raise TimeError(f"{cell.name} asked at t = {t!r}: expected a number of seconds") from None
+        error = TimeError(f"{cell.name} asked at t = {t!r}: expected a number of seconds")
+        if not isinstance(t, str | bytes) and hasattr(t, "__len__"):
+            raise hint(error, "signals take lists and arrays of times, but only from outside of a rule") from None
+        raise error from None
     if number != number:
         raise TimeError(f"{cell.name} asked at t = nan")
     return number
