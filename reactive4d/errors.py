@@ -34,35 +34,102 @@ E = TypeVar("E", bound=BaseException)
 
 
 class Reactive4dError(Exception):
-    """What every error of reactive4d is."""
+    """What every error of reactive4d is.
+
+    >>> import reactive4d as r4
+    >>> try:
+    ...     r4.keys({0: 1.0, 1: "red"})
+    ... except r4.Reactive4dError as error:
+    ...     print(type(error).__name__)
+    ShapeError
+    """
 
 
 class CycleError(Reactive4dError):
-    """A cell reads itself at one and the same point; the message names the path."""
+    """A cell reads itself at one and the same point; the message names the path.
+
+    >>> import reactive4d as r4
+    >>> x = r4.Variable(0.0, name="x")
+    >>> x.value = r4.signal(lambda: x.now())
+    >>> x.at(0.0)
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.CycleError: x reads itself at t = 0: x -> <lambda> -> x
+    hint: ...
+    """
 
 
 class EvaluationError(Reactive4dError):
-    """The engine was asked for what is not possible here: an edit inside of an evaluation, `now()` outside of one."""
+    """The engine was asked for what is not possible here: an edit inside of an evaluation, `now()` outside of one.
+
+    >>> import reactive4d as r4
+    >>> r4.time.now()
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.EvaluationError: time.now() outside of an evaluation
+    hint: ask for an instant: time.at(t)
+    """
 
 
 class DepthError(Reactive4dError):
-    """Opaque rules are nested deeper than the interpreter can go."""
+    """Opaque rules are nested deeper than the interpreter can go: where the stack is nearly full when one asks.
+
+    Otherwise the engine unwinds rules that lie too deep and begins again from below.
+
+    >>> import reactive4d as r4
+    >>> x = r4.signal(lambda: 0)
+    >>> for _ in range(2000):
+    ...     x = r4.signal(lambda below=x: below.now() + 1)
+    >>> x.at(0.0)
+    2000
+    """
 
 
 class ShapeError(Reactive4dError, ValueError):
-    """A value has the wrong shape or the wrong type."""
+    """A value has the wrong shape or the wrong type.
+
+    >>> import reactive4d as r4
+    >>> r4.keys({0: (0, 0, 0), 1: (1, 2)})
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.ShapeError: ...
+    """
 
 
 class TimeError(Reactive4dError, ValueError):
-    """A time is not usable: NaN, or a key where there is one already."""
+    """A time is not usable: NaN, or a key where there is one already.
+
+    >>> import reactive4d as r4
+    >>> r4.time.at(float("nan"))
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.TimeError: time asked at t = nan
+    """
 
 
 class ParameterError(Reactive4dError, ValueError):
-    """A reader's parameter is out of bounds, of another type, or stands twice under one name."""
+    """A reader's parameter is out of bounds, of another type, or stands twice under one name.
+
+    >>> import reactive4d as r4
+    >>> share = r4.Parameter("share", 0.5, bounds=(0.0, 1.0))
+    >>> share.at(0.0, share=2.0)
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.ParameterError: share: 2.0 is not within 0.0 and 1.0
+    """
 
 
 class UnknownNameError(Reactive4dError, LookupError):
-    """A name that nobody knows."""
+    """A name that nobody knows.
+
+    >>> import reactive4d as r4
+    >>> speed = r4.Parameter("speed", 1.0)
+    >>> speed.at(0.0, sped=2.0)
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.UnknownNameError: unknown parameter 'sped'
+    hint: did you mean 'speed'?
+    """
 
 
 def hint(error: E, text: str) -> E:

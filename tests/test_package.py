@@ -248,3 +248,9 @@ def test_the_examples_of_a_page_answer_what_the_page_says(path: Path):
     )
 
     assert result.failed == 0, "".join(report)
+
+
+@pytest.mark.parametrize("name", [name for name in reactive4d.__all__ if name != "FOREVER"])
+def test_a_public_name_has_an_example(name: str):
+    """What one reads about a public name shows how it is used; all examples are run as tests."""
+    assert ">>>" in (inspect.getdoc(getattr(reactive4d, name)) or "")

@@ -15,6 +15,9 @@ class Event(NamedTuple):
     `kind` is "evaluated" (its rule ran), "reused" (a remembered answer was handed out), "validated" (a remembered
     answer was checked and stands), "restored" (an older answer holds again), "cut off" (it was evaluated, and the
     answer is what it was), "marked" (an edit made it questionable), "edited" or "evicted"; over [lo, hi) in time.
+
+    >>> str(Event("marked", "ball.position", 1.0, 3.0))
+    'marked ball.position [1, 3)'
     """
 
     kind: str

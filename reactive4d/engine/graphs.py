@@ -18,7 +18,20 @@ KINDS = {0: "source", 1: "parameter", 2: "formula", 3: "computed"}
 
 @dataclass(frozen=True)
 class Graph:
-    """Cells and links. `cells` maps an id to (name, kind, state); `links` are (reader id, id of what it reads)."""
+    """Cells and links. `cells` maps an id to (name, kind, state); `links` are (reader id, id of what it reads).
+
+    >>> import reactive4d as r4
+    >>> graph = r4.graph(r4.Variable(1.0, name="x") * 2)
+    >>> graph.cells, graph.links
+    ({0: ('x * 2', 'formula', 'never asked'), 1: ('x', 'source', 'up to date')}, ((0, 1),))
+    >>> print(graph.dot())
+    digraph {
+      rankdir=LR;
+      n0 [label="x * 2", shape=ellipse, style=dashed];
+      n1 [label="x", shape=box];
+      n1 -> n0;
+    }
+    """
 
     cells: dict[int, tuple[str, str, str]]
     links: tuple[tuple[int, int], ...]

@@ -24,7 +24,12 @@ MOST_VISITED = 1000
 
 
 class Time(Signal[float], Source):
-    """Time itself: answers with the instant at which it is asked, and holds for that instant only."""
+    """Time itself: answers with the instant at which it is asked, and holds for that instant only.
+
+    >>> import reactive4d as r4
+    >>> r4.time.at(2.5)
+    2.5
+    """
 
     __slots__ = ()
 
