@@ -41,7 +41,7 @@ def instructions(run: Run) -> Section:
                 step = graph.build(lib, **graph.size)
                 for i in range(STEPS):
                     step(i)
-                counted, calls = traced(lambda step=step: step(STEPS))
+                counted, calls = traced(lambda step=step: step(STEPS + 1), warm_up=lambda step=step: step(STEPS))
                 lib.close()
                 each = sum(counted.values()) / graph.per_cell
                 row.append(f"{each:.0f} ({sum(calls.values()) / graph.per_cell:.1f})")
@@ -54,8 +54,8 @@ def instructions(run: Run) -> Section:
     return section
 
 
-def traced(function: Callable[[], object]) -> tuple[Counter[str], Counter[str]]:
-    """The instructions and the calls that a function makes, by file and function."""
+def traced(function: Callable[[], object], *, warm_up: Callable[[], object]) -> tuple[Counter[str], Counter[str]]:
+    """The instructions and the calls that a function makes, by file and function, after the same work was done once."""
     counted: Counter[str] = Counter()
     calls: Counter[str] = Counter()
 
@@ -69,9 +69,13 @@ def traced(function: Callable[[], object]) -> tuple[Counter[str], Counter[str]]:
         return trace
 
     before = sys.gettrace()
-    sys.settrace(trace)
-    try:
-        function()
-    finally:
-        sys.settrace(before)
+    # Since Python 3.12 a code's opcodes are traced from the second time on that it runs under a trace.
+    for work in (warm_up, function):
+        counted.clear()
+        calls.clear()
+        sys.settrace(trace)
+        try:
+            work()
+        finally:
+            sys.settrace(before)
     return counted, calls
