@@ -215,7 +215,10 @@ def test_instructions_are_counted():
             named(LADDER)
 
     def count(times: int) -> tuple[Counter[str], Counter[str]]:
-        return traced(lambda: work(times), warm_up=lambda: work(times))
+        def task() -> None:
+            work(times)
+
+        return traced(task, warm_up=task)
 
     few, calls = count(1)
     assert count(1)[0].total() == few.total()
