@@ -49,7 +49,7 @@ def unfold(span: tuple[float, float], t: float, first: float, last: float, *, mi
     Folding is monotonic within one cycle, so that it is enough to try both ends; they give way until they are inside.
     """
     if math.isinf(t):
-        return t, t
+        return t, math.nextafter(t, INF)
     lo, hi = max(span[0], first), min(span[1], last)
     inner, cycle = fold(t, first, last, mirrored=mirrored)
     before, after = inner - lo, hi - inner
