@@ -444,7 +444,13 @@ def moment() -> float:
 
 
 def narrow(lo: float, hi: float) -> None:
-    """Let the answer under evaluation hold at most over [lo, hi)."""
+    """Let the answer under evaluation hold at most over [lo, hi).
+
+    Raises:
+        EvaluationError: outside of an evaluation, or the asked time does not lie in it.
+    """
     frame = _frame("narrow(…)")
+    if not lo <= frame.t < hi:
+        raise EvaluationError(f"{frame.cell.name} narrowed to [{lo!r}, {hi!r}), where t = {frame.t!r} does not lie")
     if frame.naive is None:
         frame.lo, frame.hi = max(frame.lo, lo), min(frame.hi, hi)
