@@ -43,7 +43,7 @@ class Pieced(Operation[Any]):
         value = one(*[x.at(t) for x in found])
         moving = [i for i, x in enumerate(found) if x.slope]
         lo, hi = max(x.lo for x in found), min(x.hi for x in found)
-        if len(moving) > 1:
+        if len(moving) > 1 or value != value:  # what is no number lies on both sides of what is one
             narrow(t, math.nextafter(t, INF))
             return value
         if moving:
