@@ -70,7 +70,7 @@ def graph(*signals: Signal[Any]) -> Graph:
 def stats(signals: Signal[Any] | Iterable[Signal[Any]] | None = None) -> dict[str, Any]:
     """Bytes, budget, evictions; by signal its evaluations, seconds, answers, bytes, hits and the seconds they saved.
 
-    Hits are counted only while a log is open; seconds are measured at the first evaluation and every sixteenth.
+    Hits are counted only while a log is open; seconds are estimated from the first evaluations and every sixteenth.
 
     >>> sorted(stats([]))
     ['budget', 'bytes', 'cells', 'evaluations', 'evicted', 'hits']

@@ -1,6 +1,7 @@
 """The engine: what all cells of a process share, from the count of edits to the byte budget."""
 
 import itertools
+import math
 import sys
 import weakref
 from collections.abc import Callable, Generator, Iterable, Mapping
@@ -174,6 +175,8 @@ class Engine:
         lo, hi, value, stamp, point, axes = hit
         if time_map is not None:
             lo, hi = time_map.pull(lo, hi, t)
+            if not lo <= t < hi:  # a map of somebody's own: whoever asks at `t` must find the answer there
+                lo, hi = t, math.nextafter(t, INF)
         if overrides is not None and axes is not None:
             mine = {name for name, _ in overrides}
             axes = tuple(axis for axis in axes if axis.name not in mine) or None
@@ -209,8 +212,13 @@ class Engine:
     # -- remembering -----------------------------------------------------------------------------------------------
 
     def timed(self, cell: "Cell", seconds: float) -> None:
-        """Note how long a rule took: the first run, then every sixteenth."""
-        cell.cost = seconds if cell.cost == 0.0 else 0.75 * cell.cost + 0.25 * seconds
+        """Note how long a rule took: the first runs, then every sixteenth.
+
+        What came between, as another thread or the collector, makes some runs seem far too long: so a shorter run counts
+        at once, a longer one little by little.
+        """
+        cost = cell.cost
+        cell.cost = seconds if not 0.0 < cost < seconds else cost + 0.1 * (min(seconds, 2.0 * cost) - cost)
 
     def remembered(self, cell: "Cell", segment: Segment) -> None:
         """Count the bytes of a new segment."""

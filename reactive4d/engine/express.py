@@ -76,7 +76,7 @@ def express(engine: "Engine", cell: "Cell", t: float, claim: Claim | None, me: M
     epoch = engine.epoch
     runs = cell.runs
     cell.runs = runs + 1
-    started = 0.0 if runs & 15 else perf_counter()
+    started = 0.0 if runs & 15 and runs > 2 else perf_counter()
     outer = me.frame
     if is_rule:
         frame = me.frame = Task(cell, t, None, me, epoch)

@@ -101,7 +101,7 @@ def formula(engine: "Engine", cell: "Cell", t: float, point: "Point | None", cla
     epoch = engine.epoch
     release()
     try:
-        if runs & 15:
+        if runs & 15 and runs > 2:
             value = cell.function(*values)
         else:
             started = perf_counter()

@@ -144,7 +144,7 @@ def _run(engine: "Engine", task: Task) -> Need:
     value: Any = None
     release()
     try:
-        if runs & 15:
+        if runs & 15 and runs > 2:
             task.nested = -1.0
             value = cell.rule()
         else:
