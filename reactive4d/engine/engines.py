@@ -214,11 +214,11 @@ class Engine:
     def timed(self, cell: "Cell", seconds: float) -> None:
         """Note how long a rule took: the first runs, then every sixteenth.
 
-        What came between, as another thread or the collector, makes some runs seem far too long: so a shorter run counts
+        What came between, another thread or the collector, makes some runs seem far too long: so a shorter run counts
         at once, a longer one little by little.
         """
         cost = cell.cost
-        cell.cost = seconds if not 0.0 < cost < seconds else cost + 0.1 * (min(seconds, 2.0 * cost) - cost)
+        cell.cost = cost + 0.1 * (min(seconds, 2.0 * cost) - cost) if 0.0 < cost < seconds else seconds
 
     def remembered(self, cell: "Cell", segment: Segment) -> None:
         """Count the bytes of a new segment."""
