@@ -94,7 +94,9 @@ def test_what_is_no_number_comes_back_as_a_tuple(name: str) -> None:
     together = HELD[name].at(TS)
     single = [engine.naive(HELD[name], x) for x in TS.tolist()]
     assert type(together) is tuple
-    assert all(np.array_equal(a, b) if isinstance(b, np.ndarray) else a == b for a, b in zip(together, single))
+    assert all(
+        np.array_equal(a, b) if isinstance(b, np.ndarray) else a == b for a, b in zip(together, single, strict=True)
+    )
 
 
 @given(st.lists(st.floats(allow_nan=False), max_size=8), st.sampled_from(sorted(SIGNALS)))
@@ -262,6 +264,11 @@ def test_what_is_no_array_of_times_is_refused(times: Any) -> None:
         (t + 1).at(times)
 
 
+def test_a_repeated_signal_answers_at_minus_infinity() -> None:
+    """It has no place in any cycle, and answers as at the start of one."""
+    assert t.repeat(2.0).at([-np.inf]).tolist() == [t.repeat(2.0).at(-np.inf)] == [0.0]
+
+
 def test_no_times_give_no_answers() -> None:
     """An array of length 0, of the shape that the answers have."""
     assert (t + 1).at([]).shape == (0,)
@@ -280,10 +287,15 @@ def test_inside_of_a_transaction_one_sees_what_one_set() -> None:
     x = r4.Variable(1.0)
     s = x * t
     s.at(TS)
-    with pytest.raises(KeyError), r4.transaction():
-        x.value = 3.0
-        assert np.array_equal(s.at(TS), 3.0 * TS)
-        raise KeyError
+
+    def fail() -> None:
+        with r4.transaction():
+            x.value = 3.0
+            assert np.array_equal(s.at(TS), 3.0 * TS)
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()
     assert np.array_equal(s.at(TS), TS)
 
 
