@@ -52,7 +52,7 @@ SIGNALS: dict[str, Any] = {
     "lifted": r4.lift(lambda a, b: a + 2 * b)(t, SWITCH),
     "delayed": (t * t).delay(1.5) + SWITCH.stretch(2.0) + SWITCH.reverse(0, 5),
     "repeated": (t * t).repeat(2.0) + t.hold(0, 3),
-    "warped": (t * t).warp(np.sin(t)),
+    "warped": (t * t).warp(np.arctan(t)),
     "linked": r4.Variable(r4.Variable(t * 2)) + 1,
     "keys": r4.keys({0: 0.0, 2: 5.0, 4: -1.0}, interpolation="catmull_rom"),
     "equal": r4.equal(SWITCH, 1.0),
