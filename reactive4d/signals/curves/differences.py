@@ -50,6 +50,10 @@ def difference(old: "Curve", new: "Curve") -> list[Span]:
     # What repeats the keys is the same only if all of them are.
     if folding and doubtful and (spans or not _same_ends(old, new) or not _same_modes(old, new)):
         spans = sorted(spans + doubtful)
+    if "bspline" in (old.interpolation, new.interpolation):
+        # A B-spline meets its first and its last key to the last bit, and the others only nearly.
+        ends = {old.times[0], old.times[-1]} ^ {new.times[0], new.times[-1]}
+        spans = sorted(spans + [(t, math.nextafter(t, INF)) for t in ends if not any(a <= t < b for a, b in spans)])
     return _joined(spans)
 
 

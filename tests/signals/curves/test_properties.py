@@ -203,3 +203,10 @@ def test_a_curve_cannot_be_changed() -> None:
     curve = Curve({0: 1.0})
     with pytest.raises(AttributeError, match="cannot be changed"):
         curve.before = "cycle"
+
+
+def test_a_key_that_is_an_end_no_longer_is_told() -> None:
+    """A B-spline meets its ends to the last bit and comes near the other keys: so both of these instants differ."""
+    one = Curve({0.25: "red", 0.5: "gold"}, interpolation="bspline", degree=1)
+    other = one.with_point(0.0, "red")
+    assert one.difference(other) == other.difference(one) == [(0.0, 5e-324), (0.25, math.nextafter(0.25, 1.0))]
