@@ -1,4 +1,4 @@
-"""How many examples Hypothesis tries: `ci` is repeatable and thorough, `dev` is random and quick.
+"""How many examples Hypothesis tries: `ci` is repeatable and thorough, `quick` repeatable, `dev` random and quick.
 
 `ci` is taken where the environment says CI; `pytest --hypothesis-profile=dev` chooses by name.
 """
@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, settings
 
 # A shared machine may be slow for a moment: no example is judged by its seconds.
 settings.register_profile("dev", deadline=None, max_examples=50)
+settings.register_profile("quick", deadline=None, max_examples=50, derandomize=True, print_blob=True)
 settings.register_profile(
     "ci",
     deadline=None,
