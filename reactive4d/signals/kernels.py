@@ -78,7 +78,7 @@ class Operator:
         symbol: Any = None,
     ) -> None:
         self.name = name
-        self.one = one
+        self.one = _unsigned(one) if is_step else one
         self._many = many
         self.pattern = pattern
         self.is_step = is_step
@@ -150,6 +150,16 @@ class Operator:
         if self.pattern:
             return self.pattern.format(*operands)
         return f"{self.name}({', '.join(operands)})"
+
+
+def _unsigned(one: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a step answer 0.0 for -0.0: over a piece the sign of zero would change with what the operand was made of."""
+
+    def step(*values: Any) -> Any:
+        result = one(*values)
+        return result + 0.0 if type(result) is float else result
+
+    return step
 
 
 def _filled(operands: tuple[Any, ...], live: list[bool], values: tuple[Any, ...]) -> list[Any]:
