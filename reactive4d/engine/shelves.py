@@ -114,9 +114,3 @@ class Shelves:
         shelf = Shelf(axes)
         shelves.insert(0, shelf)
         return shelf
-
-    def clear(self) -> None:
-        """Forget everything."""
-        self.shelves = []
-        self.batches = {}
-        self.marks = []
