@@ -11,6 +11,7 @@
         TimeError             a time that is not a time: NaN, a duplicate key   (also a ValueError)
         ParameterError        a parameter out of bounds, of another type, or twice under one name  (also a ValueError)
         UnknownNameError      a name nobody knows, with the nearest known one   (also a LookupError)
+        ScriptError           a script that cannot be read: file, line, column, and what was expected there
 
 Every message says what is wrong, with the value, and what was expected; a note (PEP 678) says what to do.
 """
@@ -25,6 +26,7 @@ __all__ = [
     "EvaluationError",
     "ParameterError",
     "Reactive4dError",
+    "ScriptError",
     "ShapeError",
     "TimeError",
     "UnknownNameError",
@@ -130,6 +132,43 @@ class UnknownNameError(Reactive4dError, LookupError):
     reactive4d.errors.UnknownNameError: unknown parameter 'sped'
     hint: did you mean 'speed'?
     """
+
+
+class ScriptError(Reactive4dError):
+    """A script that cannot be read: where, what was expected there, and what stands there instead.
+
+    Args:
+        message: what is wrong.
+        file: the script's file, as it was given; None for a text.
+        line: counted from 1; None where nothing of the script is to blame.
+        column: counted from 1, in characters.
+        expected: what could have stood there, in words.
+
+    >>> error = ScriptError(
+    ...     "expected ',' or ';', got '='", file="scene.scefo", line=12, column=8, expected=("','", "';'")
+    ... )
+    >>> str(error), error.line, error.column
+    ("scene.scefo:12:8: expected ',' or ';', got '='", 12, 8)
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        file: str | None = None,
+        line: int | None = None,
+        column: int | None = None,
+        expected: Iterable[str] = (),
+    ) -> None:
+        super().__init__(message)
+        self.file = file
+        self.line = line
+        self.column = column
+        self.expected = tuple(expected)
+
+    def __str__(self) -> str:
+        parts = [self.file or "<script>", *[str(n) for n in (self.line, self.column) if n is not None]]
+        return f"{':'.join(parts)}: {super().__str__()}"
 
 
 def hint(error: E, text: str) -> E:
