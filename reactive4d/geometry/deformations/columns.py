@@ -1,0 +1,91 @@
+"""Columns x, y, z of a block of points, carried through matrices."""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from reactive4d.geometry.transforms import IDENTITY, Matrix
+
+from .limits import Column, Extent
+
+__all__ = ["Operation", "carry", "image"]
+
+# Takes the three columns and the free scratch columns of a block, and leaves both lists as they stand afterwards.
+Operation: TypeAlias = Callable[[list[Column], list[Column]], object]
+
+
+_IDENTITY: list[list[float]] = IDENTITY.tolist()
+
+
+def carry(matrix: Matrix, dtype: Any) -> Operation | None:
+    """What brings columns through a matrix, touching only what the matrix touches; None for the identity.
+
+    A change of axes costs nothing: the columns change their places. Sums are taken in the order x, y, z, offset.
+    """
+    entries = matrix.tolist()
+    if entries == _IDENTITY:
+        return None
+    rows = [_terms(row, dtype) for row in entries[:3]]
+
+    def through(columns: list[Column], free: list[Column]) -> None:
+        old, new = list(columns), list[Column]()
+        for terms, offset in rows:
+            # Two rows may want one and the same column, where the matrix is singular.
+            if offset is None and len(terms) == 1 and terms[0][1] is None and not _holds(new, old[terms[0][0]]):
+                new.append(old[terms[0][0]])
+                continue
+            total, term = free.pop(), free[-1]
+            new.append(_sum(old, terms, offset, total, term))
+        free += [column for column in old if not _holds(new, column)]
+        columns[:] = new
+
+    return through
+
+
+_Terms: TypeAlias = list[tuple[int, Column | None]]
+
+
+def _holds(columns: list[Column], column: Column) -> bool:
+    return any(one is column for one in columns)
+
+
+def _terms(row: list[float], dtype: Any) -> tuple[_Terms, Column | None]:
+    terms: _Terms = [
+        (place, None if factor == 1.0 else np.array(factor, dtype)) for place, factor in enumerate(row[:3]) if factor
+    ]
+    return terms, np.array(row[3], dtype) if row[3] else None
+
+
+def _sum(columns: list[Column], terms: _Terms, offset: Column | None, total: Column, term: Column) -> Column:
+    if not terms:
+        total[...] = 0.0 if offset is None else offset
+        return total
+    place, factor = terms[0]
+    value = columns[place]
+    if factor is not None:
+        value = np.multiply(value, factor, total)
+    for place, factor in terms[1:]:
+        other = columns[place] if factor is None else np.multiply(columns[place], factor, term)
+        value = np.add(value, other, total)
+    if offset is not None:
+        value = np.add(value, offset, total)
+    if value is not total:
+        total[...] = value
+    return total
+
+
+def image(row: list[float], known: list[Extent | None]) -> Extent | None:
+    """The extent of row · (x, y, z, 1), if it follows from the known extent of one of the columns alone.
+
+    >>> image([0.0, -2.0, 0.0, 1.0], [None, (0.0, 3.0), None])
+    (-5.0, 1.0)
+    """
+    places = [place for place in range(3) if row[place]]
+    if len(places) != 1:
+        return None
+    extent = known[places[0]]
+    if extent is None:
+        return None
+    a, b = row[places[0]] * extent[0] + row[3], row[places[0]] * extent[1] + row[3]
+    return (a, b) if a <= b else (b, a)
