@@ -171,7 +171,23 @@ def _first(lines: Lines, low: Floats, high: Floats, *, radii: tuple[float, float
         return (square + a) * square + b * t + c, (4.0 * square + 2.0 * a) * t + b
 
     place = np.full(len(low), np.inf)
-    place[met] = root(quartic, edges[first, met], edges[first + 1, met], scale=large + small)
+    low, high = edges[first, met], edges[first + 1, met]
+    place[met] = _polished(lines.some(met), root(quartic, low, high, scale=large + small), low, high, radii=radii)
+    return place
+
+
+def _polished(lines: Lines, place: Floats, low: Floats, high: Floats, *, radii: tuple[float, float]) -> Floats:
+    """The same roots by Newton's steps for the distance from the tube's middle, which loses fewer digits."""
+    large, small = radii
+    for _ in range(2):
+        x, y, z = lines.at(place)
+        ring = np.sqrt(x * x + y * y)
+        across = ring - large
+        far = np.sqrt(across * across + z * z)
+        u, v, w = lines.unit
+        with np.errstate(divide="ignore", invalid="ignore"):
+            better = place - (far - small) * far / (across * (x * u + y * v) / ring + z * w)
+        place = np.where((better >= low) & (better <= high), better, place)
     return place
 
 

@@ -29,7 +29,7 @@ def test_hits_lie_on_the_tube_to_the_last_digits(radius, tube):
     distance, _ = tori.intersect(origins, aims - origins, radius=radius, tube=tube)
     met = np.isfinite(distance)
     assert met.mean() > 0.5
-    x, y, z = (origins + distance[:, None].clip(max=9) * (aims - origins))[met].T
+    x, y, z = (origins[met] + distance[met, None] * (aims - origins)[met]).T
     assert np.hypot(np.hypot(x, y) - radius, z) == pytest.approx(tube, rel=1e-9)
 
 
