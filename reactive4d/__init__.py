@@ -15,7 +15,28 @@ from reactive4d.errors import (
     TimeError,
     UnknownNameError,
 )
+from reactive4d.geometry.meshes import Mesh
+from reactive4d.geometry.rays import Hits
 from reactive4d.intervals import FOREVER, Interval, IntervalSet
+from reactive4d.model.changes import Become, Change, Coloring, Deformation, Mapping, Note, Reshape, Transform
+from reactive4d.model.colorings import Color, Opacity, Shade, Texture
+from reactive4d.model.deformations import Bend, FreeForm, Ripple, Skew, Taper, Twist, Wave, XForm
+from reactive4d.model.frames import Frame
+from reactive4d.model.kinds.aggregates import Combination, Group, Hull
+from reactive4d.model.kinds.boxes import Box
+from reactive4d.model.kinds.cylinders import Cone, Cylinder, Quadric, Tube
+from reactive4d.model.kinds.models import Model
+from reactive4d.model.kinds.planes import Plane
+from reactive4d.model.kinds.spheres import Sphere
+from reactive4d.model.kinds.tori import Torus
+from reactive4d.model.kinds.views import Camera, Label, Light, Point
+from reactive4d.model.mappings import MapTexture
+from reactive4d.model.nodes import Lines, Node
+from reactive4d.model.objects import Object
+from reactive4d.model.scenes import Scene
+from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Places, Reference, Text, Vector
+from reactive4d.model.tables import Table
+from reactive4d.model.transforms import LinkedXForm, LookAt, Matrix, Mirror, Orient, Rotate, Scale, Shear, Translate
 from reactive4d.process import explain, graph, log, stats, transaction
 from reactive4d.signals.algebra import equal, lift, vec
 from reactive4d.signals.choices import where
@@ -29,24 +50,88 @@ from reactive4d.signals.sources import Parameter, Variable, time
 
 __all__ = [
     "FOREVER",
+    "Become",
+    "Bend",
+    "Box",
+    "Camera",
+    "Change",
+    "Choice",
+    "Color",
+    "Coloring",
+    "Combination",
+    "Cone",
     "CycleError",
+    "Cylinder",
+    "Deformation",
     "DepthError",
     "EvaluationError",
     "Event",
+    "Flag",
+    "Float",
+    "Frame",
+    "FreeForm",
     "Graph",
+    "Group",
+    "Held",
+    "Hits",
+    "Hull",
+    "Integer",
     "Interval",
     "IntervalSet",
     "Key",
     "Keys",
+    "Label",
+    "Light",
+    "Lines",
+    "LinkedXForm",
+    "LookAt",
+    "MapTexture",
+    "Mapping",
+    "Matrix",
+    "Mesh",
+    "Mirror",
+    "Model",
+    "Node",
+    "Note",
+    "Object",
+    "Opacity",
+    "Orient",
+    "Paint",
     "Parameter",
     "ParameterError",
+    "Places",
+    "Plane",
+    "Point",
+    "Quadric",
     "Reactive4dError",
+    "Reference",
+    "Reshape",
+    "Ripple",
+    "Rotate",
     "Rotation",
+    "Scale",
+    "Scene",
+    "Shade",
     "ShapeError",
+    "Shear",
     "Signal",
+    "Skew",
+    "Sphere",
+    "Table",
+    "Taper",
+    "Text",
+    "Texture",
     "TimeError",
+    "Torus",
+    "Transform",
+    "Translate",
+    "Tube",
+    "Twist",
     "UnknownNameError",
     "Variable",
+    "Vector",
+    "Wave",
+    "XForm",
     "color",
     "equal",
     "explain",

@@ -7,10 +7,19 @@ from reactive4d.engine.frames import NEVER
 from reactive4d.engine.kinds import COMPUTED, FORMULA, SOURCE
 from reactive4d.signals.facade import Signal
 
-__all__ = ["Contents", "Settable"]
+__all__ = ["Contents", "Settable", "curve_difference"]
 
 T = TypeVar("T")
 INF = float("inf")
+
+
+def curve_difference(old: Any, new: Any) -> list[tuple[float, float]] | None:
+    """Where two assigned contents differ, if both are keys of constants; None where that is not known."""
+    if isinstance(old, Signal) and isinstance(new, Signal) and old is not new:
+        before, after = getattr(old, "curve", None), getattr(new, "curve", None)
+        if before is not None and after is not None and not before.is_live and not after.is_live:
+            return before.difference(after)
+    return None
 
 
 class Contents(Source):

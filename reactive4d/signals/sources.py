@@ -14,7 +14,7 @@ from reactive4d.engine.links import link
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.kernels import numbers
-from reactive4d.signals.settables import Settable
+from reactive4d.signals.settables import Settable, curve_difference
 
 __all__ = ["Parameter", "Time", "Variable", "time"]
 
@@ -93,11 +93,8 @@ class Variable(Settable[T], Generic[T]):
 
     def difference(self, old: Operand, new: Operand) -> list[tuple[float, float]]:
         """Where two contents may say something different: keys over keys differ only where their curves do."""
-        if isinstance(old, Signal) and isinstance(new, Signal) and old is not new:
-            before, after = getattr(old, "curve", None), getattr(new, "curve", None)
-            if before is not None and after is not None and not before.is_live and not after.is_live:
-                return before.difference(after)
-        return super().difference(old, new)
+        spans = curve_difference(old, new)
+        return super().difference(old, new) if spans is None else spans
 
     def adopt(self) -> None:
         """A constant makes it a source, a signal a formula that passes that one on."""

@@ -1,0 +1,1 @@
+"""Objects as ordered, editable lists of changes, and everything that one can ask about them."""

@@ -1,0 +1,389 @@
+"""Forms: what an object is made of before its last transforms act. A kind's own form, and each that a change makes of it.
+
+A form answers points, faces, uv and weld as signals, each with a life of its own. Forms are shared: extensions that have
+the same prefix of changes have the same forms, and so one set of points.
+"""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+from weakref import WeakValueDictionary
+
+import numpy as np
+
+from reactive4d.engine import Formula
+from reactive4d.errors import EvaluationError, ShapeError, hint
+from reactive4d.geometry import transforms
+from reactive4d.geometry.meshes import Mesh
+from reactive4d.model.places import Entry, Place
+from reactive4d.model.runs import Product
+from reactive4d.model.steps import step
+from reactive4d.signals.facade import Signal
+from reactive4d.signals.functions import Function
+
+if TYPE_CHECKING:
+    from reactive4d.model.objects import Object
+
+__all__ = ["Base", "Deformed", "Form", "Reshaped", "Stage", "deformed", "reshaped"]
+
+PARTS = ("faces", "points", "uv", "weld", "lines")
+ORIGIN = np.zeros(3)
+ORIGIN.flags.writeable = False
+
+
+class Stage(Signal[Any], Formula):
+    """One part of a form."""
+
+    __slots__ = ("form", "part")
+
+    def __init__(self, form: "Form", part: str, function: Callable[..., Any], *inputs: Signal[Any]) -> None:
+        self.form = form
+        self.part = part
+        super().__init__(function, *inputs, name="")
+
+    @property
+    def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """The form's name and the part's: `tube.bend.points`."""
+        return f"{self.form.name}.{self.part}"
+
+    @name.setter
+    def name(self, value: str) -> None:
+        pass
+
+
+class Form:
+    """What an object is made of: parts that are signals, in the space in which the next change finds them."""
+
+    __slots__ = ("__weakref__", "parts")
+
+    def __init__(self) -> None:
+        self.parts: dict[str, Signal[Any] | None] = {}
+
+    @property
+    def name(self) -> str:
+        """For errors and the graph."""
+        raise NotImplementedError
+
+    @property
+    def base(self) -> "Base":
+        """The kind's own form, from which this one was made."""
+        raise NotImplementedError
+
+    @property
+    def place(self) -> Place | None:
+        """Where the change stands that made it; None for the kind's own."""
+        return None
+
+    def part(self, name: str) -> Signal[Any] | None:
+        """One of points, faces, uv, weld, lines, origin; None where there is none."""
+        try:
+            return self.parts[name]
+        except KeyError:
+            part = self.parts[name] = self.make(name)
+            return part
+
+    def make(self, name: str) -> Signal[Any] | None:
+        """Make a part when it is first wanted."""
+        raise NotImplementedError
+
+    def need(self, name: str) -> Signal[Any]:
+        """A part that must be there.
+
+        Raises:
+            EvaluationError: the form has none.
+        """
+        part = self.part(name)
+        if part is None:
+            kind = self.base.kind.__name__
+            error = EvaluationError(f"{self.base.owner.name}: a {kind} has no {name}")
+            raise hint(error, f"a kind gives them by its table: Table({name}=…)")
+        return part
+
+
+class Base(Form):
+    """What a kind makes of its settings."""
+
+    __slots__ = ("kind", "owner", "product")
+
+    def __init__(self, owner: "Object", kind: "type[Object]") -> None:
+        super().__init__()
+        self.product: Product | None = None
+        self.owner = owner
+        self.kind = kind
+
+    @property
+    def name(self) -> str:
+        """The object's."""
+        return self.owner.name
+
+    @property
+    def base(self) -> "Base":
+        """Itself."""
+        return self
+
+    def placed(self, placement: Signal[Any]) -> Product:
+        """The kind's placement, where no transform follows it."""
+        if self.product is None:
+            self.product = Product(placement)
+        return self.product
+
+    def make(self, name: str) -> Signal[Any] | None:
+        """A method of the kind's table, or a part of its whole surface."""
+        if name == "origin":
+            return None
+        methods = self.kind.methods_by_name
+        if name in methods and name != "surface":
+            return self.method(name)
+        if "surface" in methods and name in PARTS and name != "lines":
+            return Stage(self, name, _part_of(name), self.method("surface"))
+        return None
+
+    def method(self, name: str) -> Signal[Any]:
+        """A method of the kind as a signal: its answer, or, where the asker brings rays or points, a function of them.
+
+        Raises:
+            EvaluationError: the kind has no such method.
+        """
+        key = f"{name}()"
+        known = self.parts.get(key)
+        if known is not None:
+            return known
+        method = self.kind.methods_by_name.get(name)
+        if method is None:
+            raise EvaluationError(f"{self.owner.name}: a {self.kind.__name__} has no method {name!r}")
+        owner = self.owner
+        if method.takes_object:
+            function = method.function
+            if method.brought:
+                made: Signal[Any] = Function(
+                    lambda: lambda *brought: function(owner, *brought), name=f"{self.name}.{name}"
+                )
+            else:
+                made = Function(lambda: as_part(name, function(owner), self.kind), name=f"{self.name}.{name}")
+        else:
+            inputs = [owner.parameter(self.kind, read) for read in method.reads]
+            if method.brought:
+                made = Stage(self, name, lambda *values: method.with_values(values), *inputs)
+            else:
+                function, reads, kind = method.function, method.reads, self.kind
+                made = Stage(
+                    self,
+                    name,
+                    lambda *values: as_part(name, function(**dict(zip(reads, values, strict=True))), kind),
+                    *inputs,
+                )
+        self.parts[key] = made
+        return made
+
+
+def _part_of(name: str) -> Callable[[Mesh], Any]:
+    if name in ("points", "faces"):
+        return lambda mesh: getattr(mesh, name)
+    return lambda mesh: mesh.attributes.get(name)
+
+
+def as_part(name: str, value: Any, kind: type) -> Any:
+    """What a method answered, as others take it: users' lists become arrays of the right type.
+
+    Raises:
+        ShapeError: it has another shape.
+    """
+    where = f"{kind.__name__}.{name}"
+    if name == "points":
+        return _rows(value, np.float32, 3, where)
+    if name == "faces":
+        return _rows(value, np.int32, 3, where)
+    if name == "uv":
+        return _rows(value, np.float32, 2, where)
+    if name in ("weld", "lines"):
+        return value if type(value) is np.ndarray else np.array(value, dtype=np.int32)
+    if name == "placement":
+        return _rows(value, np.float64, 4, where)
+    if name == "surface" and not isinstance(value, Mesh):
+        raise ShapeError(f"{where}: expected a Mesh, got {value!r}")
+    return value
+
+
+def _rows(value: Any, dtype: Any, width: int, where: str) -> Any:
+    if type(value) is np.ndarray and value.dtype == dtype and value.ndim == 2 and value.shape[1] == width:
+        return value
+    try:
+        array = np.array(value, dtype=dtype)
+    except (TypeError, ValueError):
+        raise ShapeError(f"{where}: expected rows of {width} numbers, got {value!r}") from None
+    if array.size == 0:
+        array = array.reshape(0, width)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ShapeError(f"{where}: expected rows of {width} numbers, got an array of shape {array.shape}")
+    return array
+
+
+class Made(Form):
+    """A form that a change makes of the one below it."""
+
+    __slots__ = ("below", "entry", "run")
+
+    def __init__(self, below: Form, run: Signal[Any] | None, entry: Entry) -> None:
+        super().__init__()
+        self.below = below
+        self.run = run
+        self.entry = entry
+
+    @property
+    def name(self) -> str:
+        """The owner's name and the change's."""
+        return f"{self.entry.owner.name}.{self.entry.change.name}"
+
+    @property
+    def base(self) -> Base:
+        """The kind's own."""
+        return self.below.base
+
+    @property
+    def place(self) -> Place | None:
+        """The entry's."""
+        return self.entry.place
+
+    def placed(self) -> Signal[Any]:
+        """The points below, moved by the transforms before the change."""
+        points = self.below.need("points")
+        if self.run is None:
+            return points
+        known = self.parts.get("placed")
+        if known is None:
+            known = self.parts["placed"] = Stage(self, "placed", transforms.transform_points, self.run, points)
+        return known
+
+    def position(self) -> Signal[Any] | None:
+        """Where the object's origin is when the change acts; None for (0, 0, 0)."""
+        origin = self.below.part("origin")
+        if self.run is None:
+            return origin
+        if "position" not in self.parts:
+            self.parts["position"] = carried(self, "position", self.run, origin)
+        return self.parts["position"]
+
+
+def carried(form: Form, name: str, matrix: Signal[Any], origin: Signal[Any] | None) -> Signal[Any]:
+    """The origin carried on by a matrix."""
+    if origin is None:
+        return Stage(form, name, lambda m: m[:3, 3].copy(), matrix)
+    return Stage(form, name, lambda m, p: m[:3, :3] @ p + m[:3, 3], matrix, origin)
+
+
+class Deformed(Made):
+    """What a deformation leaves: other points, the same faces."""
+
+    __slots__ = ()
+
+    def make(self, name: str) -> Signal[Any] | None:
+        """Only the points and the origin are its own."""
+        if name not in ("points", "origin", "extent"):
+            return self.below.part(name)
+        change = self.entry.change
+        act, wanted = step(type(change))
+        position = self.position() if "position" in wanted else None
+        if change.is_stepped:
+            return self._stepped(name, act, position)
+        if name == "origin":
+            return self._mapped_origin(act, wanted, position)
+        kind = type(change)
+        inputs = [self.placed(), change.values]
+        if position is None:
+            return Stage(
+                self, name, lambda p, v: as_part("points", act(v, {"points": p, "position": ORIGIN}), kind), *inputs
+            )
+        return Stage(
+            self, name, lambda p, v, o: as_part("points", act(v, {"points": p, "position": o}), kind), *inputs, position
+        )
+
+    def _mapped_origin(self, act: Any, wanted: Any, position: Any) -> Signal[Any] | None:
+        """The origin is one more point: the function of a user's deformation is pointwise."""
+        before = self.position()
+        at = ORIGIN.reshape(1, 3)
+        if before is None:
+            return Stage(
+                self, "origin", lambda v: _first(act(v, {"points": at, "position": ORIGIN})), self.entry.change.values
+            )
+        return Stage(
+            self,
+            "origin",
+            lambda v, o: _first(act(v, {"points": o.reshape(1, 3), "position": o})),
+            self.entry.change.values,
+            before,
+        )
+
+    def _stepped(self, name: str, act: Any, position: Signal[Any] | None) -> Signal[Any] | None:
+        values = self.entry.change.values
+        before = self.position()
+        center = [] if position is None else [position]
+
+        def made(v: Any, o: Any) -> Any:
+            return act(v, {"position": ORIGIN if not o else o[0]})
+
+        if name == "extent":
+            return Stage(self, name, lambda p, v, *o: made(v, o).extent(p), self.placed(), values, *center)
+        extent = self.need("extent")
+        if name == "points":
+            return Stage(self, name, lambda p, v, e, *o: made(v, o).map(p, e), self.placed(), values, extent, *center)
+        if before is None:
+            return Stage(self, name, lambda v, e: _first(made(v, ()).map(ORIGIN.reshape(1, 3), e)), values, extent)
+        return Stage(self, name, lambda v, e, o: _first(made(v, (o,)).map(o.reshape(1, 3), e)), values, extent, before)
+
+
+def _first(points: Any) -> Any:
+    return np.array(points[0], dtype=np.float64)
+
+
+class Reshaped(Made):
+    """What a change leaves that makes a new surface: an outline that was extruded."""
+
+    __slots__ = ()
+
+    def make(self, name: str) -> Signal[Any] | None:
+        """All parts but the origin come from one surface."""
+        if name == "origin":
+            return self.position()
+        if name == "lines":
+            return None
+        if name != "surface":
+            surface = self.need("surface")
+            return Stage(self, name, _part_of(name), surface) if name in PARTS else None
+        change = self.entry.change
+        act, wanted = step(type(change))
+        given = [n for n in sorted(wanted)]
+        inputs: list[Signal[Any]] = [change.values]
+        for n in given:
+            source = self.placed() if n == "points" else self.position() if n == "position" else self.below.part(n)
+            inputs.append(source if source is not None else _constant(ORIGIN if n == "position" else None))
+        kind = type(change)
+        return Stage(
+            self,
+            "surface",
+            lambda v, *more: as_part("surface", act(v, dict(zip(given, more, strict=True))), kind),
+            *inputs,
+        )
+
+
+def _constant(value: Any) -> Signal[Any]:
+    from reactive4d.signals.sources import Variable
+
+    return Variable(value)
+
+
+_forms: WeakValueDictionary[tuple[Any, ...], Made] = WeakValueDictionary()
+
+
+def deformed(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
+    """The form that a deformation makes."""
+    return _interned(Deformed, below, run, entry)
+
+
+def reshaped(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
+    """The form that a reshaping change makes."""
+    return _interned(Reshaped, below, run, entry)
+
+
+def _interned(kind: type[Made], below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
+    key = (kind, below, run, entry)
+    form = _forms.get(key)
+    return form if form is not None else _forms.setdefault(key, kind(below, run, entry))

@@ -1,0 +1,61 @@
+"""Frames: what a viewer needs of a scene at one time, by name."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from reactive4d.model.nodes import Node
+
+__all__ = ["Frame"]
+
+
+class Frame(Mapping[str, Node]):
+    """The nodes of a scene at one time, by name; those of a group follow it as `car/tyre0`.
+
+    >>> import reactive4d as r4
+    >>> frame = r4.Scene(ball=r4.Sphere()).at(0.0)
+    >>> frame["ball"].visible
+    True
+    """
+
+    __slots__ = ("_items", "_named", "_nodes", "time")
+
+    def __init__(self, time: float, items: tuple[tuple[str, Any], ...], nodes: Any) -> None:
+        self.time = time
+        self._items = items
+        self._nodes = nodes
+        self._named: dict[str, Node] | None = None
+
+    def _all(self) -> dict[str, Node]:
+        named = self._named
+        if named is None:
+            named = {}
+            for (name, _), node in zip(self._items, _flat(self._nodes), strict=True):
+                _enter(named, name, node)
+            self._named = named
+        return named
+
+    def __getitem__(self, name: str) -> Node:
+        return self._all()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all())
+
+    def __len__(self) -> int:
+        return len(self._all())
+
+    def __repr__(self) -> str:
+        return f"<Frame at {self.time:g} s: {', '.join(self)}>"
+
+
+def _flat(nodes: Any) -> Iterator[Node]:
+    for node in nodes:
+        if isinstance(node, Node):
+            yield node
+        else:
+            yield from _flat(node)
+
+
+def _enter(named: dict[str, Node], name: str, node: Node) -> None:
+    named[name] = node
+    for below, member in node.members.items():
+        _enter(named, f"{name}/{below}", member)

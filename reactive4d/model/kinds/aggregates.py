@@ -1,0 +1,249 @@
+"""Aggregates: objects that are made of others, a group of them or a combination of solids."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from reactive4d.arrays import freeze
+from reactive4d.errors import ShapeError, hint
+from reactive4d.geometry import solids
+from reactive4d.geometry.meshes import Mesh
+from reactive4d.geometry.solids import Solid
+from reactive4d.model.forms import Base
+from reactive4d.model.objects import Object
+from reactive4d.model.settings import Held
+from reactive4d.model.tables import Table
+
+__all__ = ["Combination", "Group", "Hull", "leaves", "members_of"]
+
+OPERATIONS = {
+    "|": "|",
+    "+": "|",
+    "union": "|",
+    "&": "&",
+    "*": "&",
+    "intersection": "&",
+    "-": "-",
+    "difference": "-",
+}
+
+
+def _members(value: Any) -> tuple[tuple[str, Object], ...]:
+    pairs = value.items() if isinstance(value, Mapping) else value
+    found: list[tuple[str, Object]] = []
+    for i, pair in enumerate(pairs):
+        name, member = pair if isinstance(pair, tuple) and len(pair) == 2 else (f"member{i}", pair)  # pyright: ignore
+        if not isinstance(name, str) or not isinstance(member, Object):
+            raise ShapeError(f"members: expected names with objects, got {pair!r}")
+        found.append((name, member))
+    if len({name for name, _ in found}) != len(found):
+        raise ShapeError("members: a name stands twice")
+    return tuple(found)
+
+
+class Members(Held):
+    """Objects by name; a mapping, or a list of objects."""
+
+    def admit(self, value: Any) -> Any:
+        """Pairs of a name and an object."""
+        return _members(value) if isinstance(value, Mapping | tuple | list) else super().admit(value)
+
+    def check(self, value: Any) -> Any:
+        """Pairs of a name and an object."""
+        return _members(value)
+
+
+def members_of(obj: Object) -> tuple[tuple[str, Object], ...]:
+    """The members of an object with the setting `members`, with their names; only inside of an evaluation."""
+    return obj.attribute("members").now()
+
+
+def _together(obj: Object) -> Mesh:
+    """The meshes of the members, side by side."""
+    meshes = [member.mesh.now() for _, member in members_of(obj) if member.visible.now()]
+    return joined(meshes)
+
+
+def joined(meshes: list[Mesh]) -> Mesh:
+    """Several meshes as one; the attributes that all of them have are kept."""
+    starts = np.cumsum([0, *[len(mesh.points) for mesh in meshes]])
+    if not meshes:
+        return Mesh(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+    points = np.concatenate([mesh.points for mesh in meshes])
+    faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)])
+    attributes: dict[str, Any] = {}
+    if all("uv" in mesh.attributes for mesh in meshes):
+        attributes["uv"] = np.concatenate([mesh.attributes["uv"] for mesh in meshes])
+    welds = [mesh.attributes.get("weld", np.arange(len(mesh.points))) for mesh in meshes]
+    attributes["weld"] = np.concatenate([weld + start for weld, start in zip(welds, starts, strict=False)])
+    return Mesh(points, faces, attributes)
+
+
+def _painted(obj: Object) -> Any:
+    """(F, 4), each member's paint on its faces."""
+    rows = [
+        np.tile(member.paint.now().astype(np.float32), (len(member.topology.now()), 1))
+        for _, member in members_of(obj)
+        if member.visible.now()
+    ]
+    return freeze(np.concatenate(rows)) if rows else freeze(np.zeros((0, 4), np.float32))
+
+
+class Group(Object):
+    """Several objects, treated as one: what is done to the group is done to all of them, and to none of them alone.
+
+    >>> import reactive4d as r4
+    >>> left, right = r4.Sphere(), r4.Sphere()
+    >>> _ = right.translate((2, 0, 0))
+    >>> pair = r4.Group(left=left, right=right)
+    >>> _ = pair.translate((0, 0, 1))
+    >>> pair.bounds.at(0.0)
+    array([[-0.5, -0.5,  0.5],
+           [ 2.5,  0.5,  1.5]])
+    """
+
+    is_group = True
+
+    members = Members((), doc="the objects, by name")
+
+    table = Table(surface=lambda obj: _together(obj), colors=lambda obj: _painted(obj))
+
+    def __init__(self, members: Any = None, /, **named: Any) -> None:
+        objects = {name: value for name, value in named.items() if isinstance(value, Object)}
+        settings = {name: value for name, value in named.items() if not isinstance(value, Object)}
+        if objects:
+            members = {**(members if isinstance(members, Mapping) else dict(_members(members or ()))), **objects}
+        super().__init__(members=members, **settings)
+
+
+def _tree(value: Any, depth: int = 0) -> Any:
+    """A tree of solids as nested tuples: an object, or (tree, operation, tree, operation, tree …)."""
+    if depth > 100:
+        raise ShapeError("a tree of solids is nested deeper than 100")
+    if isinstance(value, Object):
+        return value
+    if not isinstance(value, tuple | list) or len(value) % 2 == 0 or not value:  # pyright: ignore[reportUnknownArgumentType]
+        error = ShapeError(f"Combination.tree: expected an object or a list such as [a, '-', b], got {value!r}")
+        raise hint(error, "lists nest: [a, '-', [b, '|', c]]; operations are |, & and -")
+    parts: list[Any] = list(value)  # pyright: ignore[reportUnknownArgumentType]
+    for i, part in enumerate(parts):
+        if i % 2 == 0:
+            parts[i] = _tree(part, depth + 1)
+        elif not isinstance(part, str) or part not in OPERATIONS:
+            raise hint(
+                ShapeError(f"Combination.tree: {part!r} is no operation"),
+                "union is '|', intersection '&', difference '-'",
+            )
+        else:
+            parts[i] = OPERATIONS[part]
+    return tuple(parts) if len(parts) > 1 else parts[0]
+
+
+class Tree(Held):
+    """A tree of solids."""
+
+    def check(self, value: Any) -> Any:
+        """Nested tuples of objects and operations."""
+        return _tree(value)
+
+
+def leaves(tree: Any) -> Iterator[Object]:
+    """The objects of a tree, from left to right."""
+    if isinstance(tree, Object):
+        yield tree
+    else:
+        for part in tree[::2]:
+            yield from leaves(part)
+
+
+_COMBINE = {"|": solids.union, "&": solids.intersection, "-": solids.difference}
+
+
+def _combined(tree: Any) -> Solid:
+    if isinstance(tree, Object):
+        return solids.moved(tree.solid.now(), tree.matrix.now())
+    result = _combined(tree[0])
+    i = 1
+    while i < len(tree):
+        # Operands of one and the same operation are combined at once.
+        stop = i
+        while stop < len(tree) and tree[stop] == tree[i]:
+            stop += 2
+        result = _COMBINE[tree[i]]([result, *[_combined(part) for part in tree[i + 1 : stop : 2]]])
+        i = stop
+    return result
+
+
+def _solid(obj: Object) -> Solid:
+    return _combined(obj.attribute("tree").now())
+
+
+def _surface(obj: Object) -> Mesh:
+    return solids.mesh(obj.solid_of_kind().now())
+
+
+def _paints(obj: Object) -> list[Any]:
+    """The paint of each source of a solid, from left to right; only inside of an evaluation."""
+    form = obj.form.now()
+    tree = obj.attribute("tree").now() if issubclass(form.base.kind, Combination) else None
+    if tree is None or not isinstance(form, Base):
+        return [obj.paint.now()] * len(obj.solid.now().sources)
+    return [paint for leaf in leaves(tree) for paint in _paints(leaf)]
+
+
+def _colors(obj: Object) -> Any:
+    source = obj.surface_of_kind().now().attributes["source"]
+    paints = [paint for leaf in leaves(obj.attribute("tree").now()) for paint in _paints(leaf)]
+    if not paints:
+        return freeze(np.zeros((0, 4), np.float32))
+    return freeze(np.array(paints, np.float32)[source])
+
+
+class Combination(Object):
+    """Solids combined like sets: a tree of unions `|`, intersections `&` and differences `-`; the tree may vary.
+
+    The operands are where they are in the world; what is done to the combination acts afterwards.
+
+    >>> import reactive4d as r4
+    >>> block, hole = r4.Box(size=(2, 2, 2)), r4.Box(size=(1, 1, 4))
+    >>> part = block - hole
+    >>> round(part.volume.at(0.0), 6)
+    6.0
+    """
+
+    script = "csg"
+    tree = Tree(doc="an object, or [a, '-', b]; trees nest")
+
+    table = Table(
+        solid=lambda obj: _solid(obj),
+        surface=lambda obj: _surface(obj),
+        colors=lambda obj: _colors(obj),
+        volume=lambda obj: solids.volume(obj.solid_of_kind().now()),
+    )
+
+    def __init__(self, tree: Any = None, **settings: Any) -> None:
+        super().__init__(tree=tree, **settings)
+
+
+class Hull(Object):
+    """The smallest convex solid round some objects.
+
+    >>> import reactive4d as r4
+    >>> a, b = r4.Box(), r4.Box()
+    >>> _ = b.translate((1, 0, 0))
+    >>> round(r4.Hull([a, b]).volume.at(0.0), 6)
+    2.0
+    """
+
+    members = Members((), doc="the objects")
+
+    table = Table(
+        solid=lambda obj: solids.convex_hull(
+            np.concatenate([member.mesh.now().points for _, member in members_of(obj)])
+        ),
+        surface=lambda obj: solids.mesh(obj.solid_of_kind().now()),
+    )
+
+    def __init__(self, members: Any = None, **settings: Any) -> None:
+        super().__init__(members=members, **settings)

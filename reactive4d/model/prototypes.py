@@ -1,0 +1,95 @@
+"""Prototypes: the object whose changes and settings another one has too."""
+
+from typing import TYPE_CHECKING, Any
+
+from reactive4d.engine import Source
+from reactive4d.engine.links import link
+from reactive4d.errors import CycleError, ShapeError
+from reactive4d.signals.facade import Signal
+from reactive4d.signals.settables import Settable, curve_difference
+
+if TYPE_CHECKING:
+    from reactive4d.model.objects import Object
+
+__all__ = ["Names", "Prototype", "refuse_circle"]
+
+
+class Prototype(Settable[Any]):
+    """The prototype of an object: an object, a signal of objects, or None."""
+
+    __slots__ = ("object",)
+
+    def __init__(self, obj: "Object") -> None:
+        self.object = obj
+        super().__init__(None, name="")
+
+    @property
+    def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """The object's name and its own."""
+        return f"{self.object.name}.prototype"
+
+    @name.setter
+    def name(self, value: str) -> None:
+        pass
+
+    @property
+    def source(self) -> Any:
+        """What was assigned."""
+        return self.content
+
+    def refers(self, content: Any) -> bool:
+        """A signal is a reference."""
+        return isinstance(content, Signal)
+
+    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
+        """Keys over keys differ only where their curves do."""
+        spans = curve_difference(old, new)
+        return super().difference(old, new) if spans is None else spans
+
+    def adopt(self) -> None:
+        """An object makes it a source, a signal a formula."""
+        if isinstance(self.content, Signal):
+            self._be_formula(self.content)
+            link(self, self.inputs)
+        else:
+            self._be_source()
+
+    def function(self, *values: Any) -> Any:
+        """The object that the signal answers."""
+        value = values[1]
+        if value is not None and not hasattr(value, "changes"):
+            raise ShapeError(f"{self.name}: expected an object, got {value!r}")
+        return value
+
+
+class Names(Signal[tuple[str, ...]], Source):
+    """The names of the settings that an object with a prototype has set itself."""
+
+    __slots__ = ("object",)
+
+    def __init__(self, obj: "Object", content: tuple[str, ...]) -> None:
+        self.object = obj
+        super().__init__(content, name="")
+
+    @property
+    def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """The object's name and `settings`."""
+        return f"{self.object.name}.settings"
+
+    @name.setter
+    def name(self, value: str) -> None:
+        pass
+
+
+def refuse_circle(obj: "Object", prototype: Any) -> None:
+    """Raise if an object would become its own prototype, by way of others or not.
+
+    Raises:
+        CycleError: it would; the path is named. Where a prototype varies, circles are found when one asks.
+    """
+    path = [obj]
+    while prototype is not None and not isinstance(prototype, Signal):
+        path.append(prototype)
+        if prototype is obj:
+            raise CycleError(f"{obj.name} would be its own prototype: {' -> '.join([p.name for p in path])}")
+        prototype = prototype.prototype_content

@@ -1,0 +1,130 @@
+"""Runs of transforms: each collapses into one matrix, and objects that have a run in common share it."""
+
+from typing import Any
+from weakref import WeakValueDictionary
+
+import numpy as np
+
+from reactive4d.engine import Formula
+from reactive4d.errors import ShapeError
+from reactive4d.model.places import Entry
+from reactive4d.model.steps import Step, step
+from reactive4d.model.tables import Table
+from reactive4d.signals.facade import Signal
+
+__all__ = ["Product", "Run", "run_of"]
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class Product:
+    """A run as an answer: signals do not answer signals."""
+
+    __slots__ = ("run",)
+
+    def __init__(self, run: "Signal[Array]") -> None:
+        self.run = run
+
+
+class Run(Signal[Array], Formula):
+    """The matrix of some transforms after those of another run, all by the same owner.
+
+    Its inputs are the matrix below, if there is one; where the object's origin is before the first transform, if it is
+    not the origin and somebody wants to know; and the values of every change.
+    """
+
+    __slots__ = ("below", "entries", "origin", "product", "steps", "takes_origin")
+
+    def __init__(
+        self, below: Signal[Array] | None, entries: tuple[Entry, ...], origin: Signal[Array] | None, kind: Table | None
+    ) -> None:
+        self.product = Product(self)
+        self.below = below
+        self.entries = entries
+        self.origin = origin
+        replaced = kind.changes if kind is not None else {}
+        made = [step(type(e.change), replaced.get(type(e.change).script)) for e in entries]
+        self.steps: list[tuple[Step, bool, type]] = [
+            (s, bool(wanted), type(e.change)) for (s, wanted), e in zip(made, entries, strict=True)
+        ]
+        self.takes_origin = origin is not None and any("position" in wanted for _, wanted in made)
+        inputs: list[Any] = [] if below is None else [below]
+        if self.takes_origin:
+            inputs.append(origin)
+        super().__init__(self._product, *inputs, *[e.change.values for e in entries], name="")
+
+    @property
+    def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """The owner's name and what the transforms are called."""
+        names = ", ".join([entry.change.name for entry in self.entries[:3]])
+        return f"{self.entries[0].owner.name}.({names}{', …' if len(self.entries) > 3 else ''})"
+
+    @name.setter
+    def name(self, value: str) -> None:
+        pass
+
+    def _product(self, *values: Any) -> Array:
+        matrix: Any = None
+        origin: Any = None
+        first = 0
+        if self.below is not None:
+            matrix, first = values[0], 1
+        if self.takes_origin:
+            origin, first = values[first], first + 1
+        for (act, wants, change), value in zip(self.steps, values[first:], strict=True):
+            factor = act(value, _given(matrix, origin) if wants else _NOTHING)
+            if type(factor) is not np.ndarray or factor.shape != (4, 4):
+                factor = _as_matrix(factor, change)
+            matrix = factor if matrix is None else factor @ matrix
+        return matrix
+
+
+_NOTHING: dict[str, Any] = {}
+_UNMOVED: Array = np.eye(4)
+_UNMOVED.flags.writeable = False
+_ZERO: Array = np.zeros(3)
+_ZERO.flags.writeable = False
+
+
+def _given(matrix: Array | None, origin: Array | None) -> dict[str, Any]:
+    if matrix is None:
+        return {"before": _UNMOVED, "position": _ZERO if origin is None else origin}
+    position = matrix[:3, 3] if origin is None else matrix[:3, :3] @ origin + matrix[:3, 3]
+    return {"before": matrix, "position": position}
+
+
+def _as_matrix(value: Any, change: type) -> Array:
+    matrix = np.array(value, dtype=np.float64)
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise ShapeError(f"{change.__name__}.matrix: expected 4 rows of 4 finite numbers, got shape {matrix.shape}")
+    return matrix
+
+
+_runs: WeakValueDictionary[tuple[Any, ...], Run] = WeakValueDictionary()
+
+
+def run_of(
+    entries: tuple[Entry, ...],
+    *,
+    below: Signal[Array] | None = None,
+    origin: Signal[Array] | None = None,
+    table: Table | None = None,
+) -> "Run | Signal[Array] | None":
+    """The matrix of the transforms of these entries, after `below`; None for the identity.
+
+    What lies before the first change of another owner is a run of its own, so that extensions share what they inherit.
+    """
+    table = table if table is not None and table.changes else None
+    start = 0
+    while start < len(entries):
+        stop = start + 1
+        owner = entries[start].owner
+        while stop < len(entries) and entries[stop].owner is owner:
+            stop += 1
+        key = (below, entries[start:stop], origin, table)
+        run = _runs.get(key)
+        if run is None:
+            run = _runs.setdefault(key, Run(below, entries[start:stop], origin, table))
+        below = run
+        start = stop
+    return below

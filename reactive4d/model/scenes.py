@@ -1,0 +1,136 @@
+"""Scenes: named objects, and what a viewer needs of all of them at one time."""
+
+from collections.abc import Iterator, Mapping, MutableMapping
+from typing import Any
+
+from reactive4d.engine import Formula, Source, engine
+from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.model.frames import Frame
+from reactive4d.model.nodes import node_of
+from reactive4d.model.objects import Object
+from reactive4d.signals.facade import Signal
+from reactive4d.signals.functions import Function
+
+__all__ = ["Scene"]
+
+FAN = 24  # nodes that are gathered at a time: who asks again looks at so many per level of the tree
+
+Items = tuple[tuple[str, Object], ...]
+
+
+class Contents(Signal[Items], Source):
+    """What a scene holds."""
+
+    __slots__ = ()
+
+    def difference(self, old: Items, new: Items) -> list[tuple[float, float]]:
+        """Everywhere, if anything is another one."""
+        return [] if old == new else [(-float("inf"), float("inf"))]
+
+
+class Scene(MutableMapping[str, Object]):
+    """Named objects in an order. A scene holds what it names, and names what has no name yet.
+
+    >>> import reactive4d as r4
+    >>> scene = r4.Scene(ball=r4.Sphere(), table=r4.Box(size=(2, 1, 0.1)))
+    >>> frame = scene.at(0.0)
+    >>> list(frame), frame["ball"].matrix[2, 3]
+    (['ball', 'table'], 0.0)
+    """
+
+    def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:
+        self._contents = Contents((), name="scene.objects")
+        self._tree: dict[tuple[Any, ...], Formula] = {}
+        self._frame = Function(self._gathered, name="scene")
+        self.update({**(objects or {}), **named})
+
+    # -- what it holds ---------------------------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> Object:
+        for known, obj in self._contents.content:
+            if known == name:
+                return obj
+        error = KeyError(name)
+        near = unknown(str(name), [known for known, _ in self._contents.content], what="object")
+        raise hint(error, "; ".join(near.__notes__).removeprefix("hint: "))
+
+    def __setitem__(self, name: str, value: Object) -> None:
+        self.update({name: value})
+
+    def __delitem__(self, name: str) -> None:
+        with engine.transaction():
+            self[name]
+            self._contents.set_content(tuple([item for item in self._contents.content if item[0] != name]))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([name for name, _ in self._contents.content])
+
+    def __len__(self) -> int:
+        return len(self._contents.content)
+
+    def __contains__(self, name: object) -> bool:
+        return any(known == name for known, _ in self._contents.content)
+
+    def update(self, objects: Any = (), /, **named: Any) -> None:
+        """Name several objects at once: one edit.
+
+        Raises:
+            ShapeError: a name that is no name, or something that is no object.
+        """
+        given: dict[str, Any] = dict(objects, **named)
+        for name, obj in given.items():
+            if not isinstance(name, str) or not name or "/" in name:  # pyright: ignore[reportUnnecessaryIsInstance]
+                raise hint(ShapeError(f"{name!r} is not a name for an object"), "a string without a slash")
+            if not isinstance(obj, Object):
+                raise ShapeError(f"{name}: expected an object, got {obj!r}")
+        with engine.transaction():
+            held = dict(self._contents.content)
+            held.update(given)
+            self._contents.set_content(tuple(held.items()))
+        for name, obj in given.items():
+            if not obj.is_named:
+                obj.name = name
+
+    # -- what it shows ---------------------------------------------------------------------------------------------
+
+    def at(self, t: float, /, **parameters: Any) -> Frame:
+        """What a viewer needs at a time, for a reader's parameters."""
+        items, nodes = self._frame.at(t, **parameters)
+        return Frame(float(t), items, nodes)
+
+    @property
+    def frame(self) -> Signal[Any]:
+        """All nodes as one signal, for whoever watches the scene."""
+        return self._frame
+
+    def camera(self) -> Object | None:
+        """Its first camera, or None."""
+        from reactive4d.model.kinds.views import Camera
+
+        return next((obj for _, obj in self._contents.content if isinstance(obj, Camera)), None)
+
+    def _gathered(self) -> tuple[Items, Any]:
+        items: Items = self._contents.now()
+        cells: list[Signal[Any]] = [node_of(obj) for _, obj in items]
+        known, self._tree = self._tree, {}
+        while len(cells) != 1:
+            cells = [self._gather(known, tuple(cells[i : i + FAN])) for i in range(0, len(cells), FAN)]
+            if not cells:
+                return items, ()
+        return items, cells[0].now() if len(items) > 1 else (cells[0].now(),)
+
+    def _gather(self, known: dict[tuple[Any, ...], Formula], cells: tuple[Any, ...]) -> Any:
+        cell = known.get(cells)
+        if cell is None:
+            cell = Gathered(lambda *values: values, *cells, name="scene.nodes")
+        self._tree[cells] = cell
+        return cell
+
+    def __repr__(self) -> str:
+        return f"Scene({', '.join([f'{name}={obj!r}' for name, obj in self._contents.content])})"
+
+
+class Gathered(Signal[tuple[Any, ...]], Formula):
+    """Some nodes, or some of these."""
+
+    __slots__ = ()
