@@ -34,7 +34,7 @@ def parse(text: str, *, file: str | None = None) -> Script:
     ...     parse("change (egg) translate <0, 1;", file="egg.scefo")
     ... except ScriptError as error:
     ...     print(error)
-    egg.scefo:1:29: expected '>', a name or 'ease', got ';'
+    egg.scefo:1:29: expected '>', 'ease' or a name, got ';'
     """
     if len(text) > MOST_LETTERS:
         raise ScriptError(f"{len(text)} characters; at most {MOST_LETTERS} are read", file=file)

@@ -12,7 +12,7 @@ from reactive4d.scefo.words import NAME, RESERVED, STATEMENTS, quoted
 
 __all__ = ["END", "Token", "tokens"]
 
-MOST_DIGITS: Final = 300  # of a number
+MOST_DIGITS: Final = 330  # of a number; the largest finite one has 309
 END: Final = "$END"
 
 

@@ -50,7 +50,6 @@ __all__ = [
 ]
 
 MOST_NESTED: Final = 100  # expressions inside of one another
-MOST_BITS: Final = 1000  # of a whole number
 
 
 class Place(NamedTuple):
