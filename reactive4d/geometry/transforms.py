@@ -14,7 +14,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
+from reactive4d.geometry.deformations.columns import carry
 
 __all__ = [
     "IDENTITY",
@@ -364,20 +366,21 @@ def transform_points(matrix: Matrix, points: NDArray[Any]) -> NDArray[Any]:
     >>> transform_points(scaling((1, 2, 3)), np.ones((1, 3), np.float32))
     array([[1., 2., 3.]], dtype=float32)
     """
-    points = _rows(points)
-    out = np.empty(points.shape, points.dtype)
-    linear = matrix[:3, :3].T.astype(points.dtype)
-    offset = matrix[:3, 3].astype(points.dtype)
-    moves = bool(offset.any())
-    # Adding three numbers to rows of three is slow; adding a long row to a long row is not.
-    offsets = np.tile(offset, min(len(points), _BLOCK)) if moves else offset
-    flat = out.reshape(-1)
-    for start in range(0, len(points), _BLOCK):
-        stop = start + _BLOCK
-        np.matmul(points[start:stop], linear, out=out[start:stop])
-        if moves:
-            part = flat[3 * start : 3 * stop]
-            np.add(part, offsets[: len(part)], out=part)
+    rows = _rows(points)
+    through = carry(matrix, rows.dtype)
+    if through is None:
+        return freeze(rows.copy())
+    out = np.empty(rows.shape, rows.dtype)
+    # No product of BLAS: what it answers for a row may depend on how many rows there are.
+    scratch = np.empty((7, min(_BLOCK, len(rows))), rows.dtype)
+    for start in range(0, len(rows), _BLOCK):
+        block = rows[start : start + _BLOCK]
+        work = scratch[:, : len(block)]
+        np.copyto(work[:3], block.T)
+        columns = [*work[:3]]
+        through(columns, [*work[3:]])
+        for place, column in enumerate(columns):
+            out[start : start + _BLOCK, place] = column
     out.setflags(write=False)
     return out
 
@@ -426,7 +429,7 @@ def _rows(points: NDArray[Any]) -> NDArray[Any]:
         raise ShapeError(f"points: expected (V, 3), got an array of shape {points.shape}")
     if points.dtype != np.float32 and points.dtype != np.float64:
         points = points.astype(np.float64)
-    return np.ascontiguousarray(points)
+    return points
 
 
 def decompose(matrix: Matrix) -> tuple[Matrix, Matrix, Matrix, Matrix]:

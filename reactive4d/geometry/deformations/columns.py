@@ -4,8 +4,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-
-from reactive4d.geometry.transforms import IDENTITY, Matrix
+from numpy.typing import NDArray
 
 from .limits import Column, Extent
 
@@ -15,10 +14,10 @@ __all__ = ["Operation", "carry", "image"]
 Operation: TypeAlias = Callable[[list[Column], list[Column]], object]
 
 
-_IDENTITY: list[list[float]] = IDENTITY.tolist()
+_IDENTITY: list[list[float]] = np.eye(4).tolist()
 
 
-def carry(matrix: Matrix, dtype: Any) -> Operation | None:
+def carry(matrix: NDArray[np.float64], dtype: Any) -> Operation | None:
     """What brings columns through a matrix, touching only what the matrix touches; None for the identity.
 
     A change of axes costs nothing: the columns change their places. Sums are taken in the order x, y, z, offset.

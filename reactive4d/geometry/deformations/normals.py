@@ -53,7 +53,7 @@ def deform_with_normals(
     before, after = IDENTITY if before is None else before, IDENTITY if after is None else after
     points = transform_points(before, points)
     turned = np.asarray(normals).astype(np.float64) @ _cofactors(before[None, :3, :3])[0].T
-    for step, given in zip(steps, extents or (None,) * len(steps), strict=True):
+    for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
         extent = step.extent(points) if given is None else given
         slopes = step.jacobian(points.astype(np.float64), extent, weights=weights)
         turned = np.einsum("vij,vj->vi", _cofactors(slopes), turned)

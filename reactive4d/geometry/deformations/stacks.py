@@ -70,7 +70,7 @@ def deform(
     run = _Run(rows, weights)
     matrix = IDENTITY if before is None else before  # From the columns to the space of the points.
     known: list[Extent | None] = [None, None, None]
-    for step, given in zip(steps, extents or (None,) * len(steps), strict=True):
+    for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
         space = step.space
         way = IDENTITY if space.tobytes() == matrix.tobytes() else inverse(space).dot(matrix)
         entered = False
