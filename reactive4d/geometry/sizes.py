@@ -4,7 +4,6 @@ Lengths of 0 are allowed: they make flat solids, which harm nothing. Negative on
 than 1e30 m, so that its fifth power is a float64 and its points are float32.
 """
 
-import math
 import operator
 from typing import Any, TypeAlias
 
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
 
-__all__ = ["bearable", "count", "counts", "length", "lengths", "positive", "rows", "scaled"]
+__all__ = ["bearable", "count", "counts", "length", "lengths", "numbers", "rows", "scaled"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -42,16 +41,22 @@ def length(value: Any, name: str) -> float:
     return number
 
 
-def positive(value: Any, name: str) -> float:
-    """A finite number of more than 0.
+def numbers(value: Any, name: str, bounds: tuple[float, float], *, many: int) -> tuple[float, ...]:
+    """So many numbers within bounds.
 
     Raises:
-        ShapeError: anything else.
+        ShapeError: another number of them, or one that is out of bounds.
+
+    >>> numbers((1, 2), "exponents", (0.01, 10.0), many=2)
+    (1.0, 2.0)
     """
-    number = _number(value)
-    if number is None or not 0.0 < number < math.inf:
-        raise ShapeError(f"{name}: expected a finite number of more than 0, got {value!r}")
-    return number
+    found: list[float] = []
+    for i, item in enumerate(_items(value, name, many, "numbers")):
+        number = _number(item)
+        if number is None or not bounds[0] <= number <= bounds[1]:
+            raise ShapeError(f"{name}[{i}]: expected a number from {bounds[0]:g} to {bounds[1]:g}, got {item!r}")
+        found.append(number)
+    return tuple(found)
 
 
 def lengths(value: Any, name: str, many: int = 3) -> tuple[float, ...]:

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from reactive4d.errors import ShapeError
-from reactive4d.geometry import boxes, cones, cylinders, meshes, quadrics, rays, spheres, tori, tubes
+from reactive4d.geometry import boxes, cones, cylinders, meshes, quadrics, rays, spheres, superquadrics, tori, tubes
 
+# Every size but these is a length.
+NUMBERS = {"exponents"}
 COUNTS = {"segments", "rings", "stacks", "sides"}
 
 
@@ -28,6 +30,10 @@ class Case(NamedTuple):
         counts = {k: tuple(finer * n for n in v) if isinstance(v, tuple) else finer * v for k, v in self.counts.items()}
         known = inspect.signature(ask).parameters
         return ask(*given, **{k: v for k, v in {**counts, **self.sizes, **changed}.items() if k in known})
+
+    def lengths(self) -> dict[str, Any]:
+        """The sizes that are metres."""
+        return {key: value for key, value in self.sizes.items() if key not in NUMBERS}
 
     def mesh(self, finer: int = 1) -> meshes.Mesh:
         """The primitive's mesh."""
@@ -49,6 +55,16 @@ CASES |= {
     "torus": Case(tori, {"radius": 0.8, "tube": 0.3}, {"segments": 12, "sides": 6}, 8),
     "horn torus": Case(tori, {"radius": 0.5, "tube": 0.5}, {"segments": 12, "sides": 8}, 8),
     "tube": Case(tubes, {"radius": 0.7, "inner": 0.5, "height": 1.5}, {"segments": 7, "stacks": 2}),
+    "egg": Case(superquadrics, {"size": (1.0, 1.5, 2.0), "exponents": (1.0, 1.0)}, {"segments": 8, "rings": 4}),
+    "cushion": Case(superquadrics, {"size": (1.0, 1.5, 2.0), "exponents": (0.5, 0.8)}, {"segments": 8, "rings": 4}),
+    "diamond": Case(superquadrics, {"size": (1.0, 1.5, 2.0), "exponents": (2.0, 1.5)}, {"segments": 8, "rings": 4}),
+    "star": Case(superquadrics, {"size": (1.0, 1.5, 2.0), "exponents": (1.2, 2.5)}, {"segments": 8, "rings": 4}),
+    "toroid": Case(
+        superquadrics,
+        {"size": (0.4, 0.6, 0.5), "exponents": (0.6, 1.4), "toroidal": 0.7},
+        {"segments": 12, "rings": 8},
+        8,
+    ),
 }
 SOLIDS = pytest.mark.parametrize("case", CASES.values(), ids=CASES.keys())
 CURVED = pytest.mark.parametrize(
@@ -133,7 +149,7 @@ class TestTheSurface:
         for name in ("faces", "uv", "weld"):
             assert case.ask(name) is case.ask(name)
             known = set(inspect.signature(getattr(case.module, name)).parameters)
-            assert known <= COUNTS
+            assert known <= COUNTS | {"toroidal"}  # of which it matters only whether there is one
 
     @SOLIDS
     def test_no_function_takes_more_than_three_positional_arguments(self, case):
@@ -174,7 +190,7 @@ class TestClosedForms:
     @SOLIDS
     def test_they_grow_with_the_sizes(self, case):
         """Twice as large: 8 times the volume, 4 times the area, 32 times the inertia, twice as far the centre."""
-        twice = {k: tuple(2 * n for n in v) if isinstance(v, tuple) else 2 * v for k, v in case.sizes.items()}
+        twice = {k: tuple(2 * n for n in v) if isinstance(v, tuple) else 2 * v for k, v in case.lengths().items()}
         assert case.ask("volume", **twice) == pytest.approx(8 * case.ask("volume"))
         assert case.ask("area", **twice) == pytest.approx(4 * case.ask("area"))
         assert case.ask("inertia", **twice) == pytest.approx(32 * case.ask("inertia"))
@@ -215,7 +231,7 @@ class TestRays:
         origins, directions = shots(case)
         inside = case.ask("contains", origins)
         distance, normal = case.ask("intersect", origins, directions)
-        assert inside.sum() > 20
+        assert inside.sum() > 10
         assert np.isfinite(distance[inside]).all()
         facing = (normal * directions).sum(axis=1) / np.linalg.norm(directions, axis=1)
         assert (facing[inside] > -1e-6).all()
@@ -333,7 +349,7 @@ class TestRefusals:
     def test_sizes_of_zero_harm_nothing(self, case):
         """Flat and empty solids have points, measures and misses, all finite."""
         origins, directions = shots(case, 200)
-        nothing = {k: tuple(0.0 for _ in v) if isinstance(v, tuple) else 0.0 for k, v in case.sizes.items()}
+        nothing = {k: tuple(0.0 for _ in v) if isinstance(v, tuple) else 0.0 for k, v in case.lengths().items()}
         outer = {tori: "radius", tubes: "radius"}.get(case.module)  # what cannot be 0 alone
         for zeros in (nothing, *({k: v} for k, v in nothing.items() if k != outer)):
             assert np.isfinite(case.ask("points", **zeros)).all()
@@ -349,9 +365,9 @@ class TestRefusals:
     @SOLIDS
     def test_sizes_beyond_all_reason_are_refused(self, case):
         """Instead of points at infinity; up to 1e30 m everything is finite."""
-        huge = {k: tuple(1e300 for _ in v) if isinstance(v, tuple) else 1e300 for k, v in case.sizes.items()}
+        huge = {k: tuple(1e300 for _ in v) if isinstance(v, tuple) else 1e300 for k, v in case.lengths().items()}
         with pytest.raises(ShapeError, match="at most 1e30"):
             case.ask("points", **huge)
-        large = {k: tuple(1e30 for _ in v) if isinstance(v, tuple) else 1e30 for k, v in case.sizes.items()}
+        large = {k: tuple(1e30 for _ in v) if isinstance(v, tuple) else 1e30 for k, v in case.lengths().items()}
         for name in ("points", "volume", "area", "inertia"):
             assert np.isfinite(case.ask(name, **large)).all()
