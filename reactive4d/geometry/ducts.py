@@ -167,7 +167,7 @@ def weld(
     [0, 1, 2, 0, 4, 5, 6, 4, 0, 1, 2, 4, 5, 6]
     """
     stack = _sections(sections)
-    count, width = len(np.asarray(path)), stack.shape[1]
+    count, width = len(np.asarray(path)), int(stack.shape[1])
     rows, columns = _strips(count, width, closed, smooth)
     walls = (rows.point[:, None].astype(np.int64) * width + columns.point).ravel()
     if closed or not caps:
