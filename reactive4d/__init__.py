@@ -27,12 +27,17 @@ from reactive4d.model.kinds.boxes import Box
 from reactive4d.model.kinds.cylinders import Cone, Cylinder, Quadric, Tube
 from reactive4d.model.kinds.models import Model
 from reactive4d.model.kinds.planes import Plane
+from reactive4d.model.kinds.shapes import Circle, Helix, Line, Ngon, Path, Rectangle, Star
 from reactive4d.model.kinds.spheres import Sphere
+from reactive4d.model.kinds.superquadrics import Superquadric
+from reactive4d.model.kinds.sweeps import Duct, Prism, Revolution
 from reactive4d.model.kinds.tori import Torus
 from reactive4d.model.kinds.views import Camera, Label, Light, Point
 from reactive4d.model.mappings import MapTexture
 from reactive4d.model.nodes import Lines, Node
 from reactive4d.model.objects import Object
+from reactive4d.model.outlines import Outline, Outlines
+from reactive4d.model.reshapings import Extrude, Lathe
 from reactive4d.model.scenes import Scene
 from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Places, Reference, Text, Vector
 from reactive4d.model.tables import Table
@@ -56,6 +61,7 @@ __all__ = [
     "Camera",
     "Change",
     "Choice",
+    "Circle",
     "Color",
     "Coloring",
     "Combination",
@@ -64,8 +70,10 @@ __all__ = [
     "Cylinder",
     "Deformation",
     "DepthError",
+    "Duct",
     "EvaluationError",
     "Event",
+    "Extrude",
     "Flag",
     "Float",
     "Frame",
@@ -73,6 +81,7 @@ __all__ = [
     "Graph",
     "Group",
     "Held",
+    "Helix",
     "Hits",
     "Hull",
     "Integer",
@@ -81,7 +90,9 @@ __all__ = [
     "Key",
     "Keys",
     "Label",
+    "Lathe",
     "Light",
+    "Line",
     "Lines",
     "LinkedXForm",
     "LookAt",
@@ -91,21 +102,28 @@ __all__ = [
     "Mesh",
     "Mirror",
     "Model",
+    "Ngon",
     "Node",
     "Note",
     "Object",
     "Opacity",
     "Orient",
+    "Outline",
+    "Outlines",
     "Paint",
     "Parameter",
     "ParameterError",
+    "Path",
     "Places",
     "Plane",
     "Point",
+    "Prism",
     "Quadric",
     "Reactive4dError",
+    "Rectangle",
     "Reference",
     "Reshape",
+    "Revolution",
     "Ripple",
     "Rotate",
     "Rotation",
@@ -117,6 +135,8 @@ __all__ = [
     "Signal",
     "Skew",
     "Sphere",
+    "Star",
+    "Superquadric",
     "Table",
     "Taper",
     "Text",

@@ -1,7 +1,7 @@
 """Changes: what an object is a list of. A change is a value with attributes that are signals; it may be shared.
 
-A change belongs to one "lane", which says what it acts on. Only the changes of the lanes that a channel reads are looked
-at when the channel is asked, and only these channels hear of an edit.
+A change belongs to one "lane", which says what it acts on. Only the changes of the lanes that a channel reads are
+looked at when the channel is asked, and only these channels hear of an edit.
 
     Become      kind        what the object is
     Reshape     surface     topology, points and uv at once: an outline is extruded
@@ -14,7 +14,7 @@ at when the channel is asked, and only these channels hear of an edit.
 
 import re
 import weakref
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, overload
 
 from reactive4d.engine import engine
 from reactive4d.errors import Reactive4dError, unknown
@@ -66,10 +66,14 @@ class KindOf(Setting[Any]):
 class Enabled(Flag):
     """Whether a change acts; a signal makes it act for a while only."""
 
-    def __get__(self, obj: Any, owner: type) -> Any:
+    @overload
+    def __get__(self, obj: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, obj: "Change", owner: type) -> Gate: ...
+    def __get__(self, obj: Any, owner: type) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         return self if obj is None else obj.gate()
 
-    def __set__(self, obj: Any, value: bool | Signal[Any]) -> None:
+    def __set__(self, obj: Any, value: bool | float | Signal[Any]) -> None:
         obj.set_enabled(self.admit(value))
 
     def __delete__(self, obj: Any) -> None:
@@ -79,9 +83,9 @@ class Enabled(Flag):
 class Change:
     """A change of an object: one of the classes below it, or a user's own.
 
-    A class declares its attributes, in the order in which its constructor takes them; those after the first `positional`
-    ones are keyword-only. What it does stands in one static function, whose argument names say what it is given: names of
-    its attributes, and what the changes before it left (see the base class of its lane).
+    A class declares its attributes, in the order in which its constructor takes them; those after the first
+    `positional` ones are keyword-only. What it does stands in one static function, whose argument names say what it is
+    given: names of its attributes, and what the changes before it left (see the base class of its lane).
 
     >>> import reactive4d as r4
     >>> class Hop(r4.Transform):
@@ -106,6 +110,8 @@ class Change:
     indices: ClassVar[dict[str, int]] = {}
     wants: ClassVar[tuple[str, ...]] = ()
     steps: ClassVar[dict[Any, Any]] = {}
+    is_stepped: ClassVar[bool] = False
+    replaces: ClassVar[tuple[str, ...]] = ()  # the kind's methods that do not hold for what it leaves
 
     enabled = Enabled(True, doc="whether it acts")
 
@@ -308,8 +314,7 @@ class Deformation(Change):
 
     lane = "shape"
     operation = "deform"
-    is_stepped: ClassVar[bool] = False
-    replaces: ClassVar[tuple[str, ...]] = ("intersect", "contains", "volume", "area", "center_of_mass", "inertia")
+    replaces = ("intersect", "contains", "volume", "area", "center_of_mass", "inertia")
 
 
 class Reshape(Change):
@@ -322,14 +327,14 @@ class Reshape(Change):
 
     lane = "surface"
     operation = "surface"
-    replaces: ClassVar[tuple[str, ...]] = ("intersect", "contains", "volume", "area", "center_of_mass", "inertia")
+    replaces = ("intersect", "contains", "volume", "area", "center_of_mass", "inertia")
 
 
 class Coloring(Change):
     """A change of how the surface looks. Its function `paint` answers what it sets: a mapping of names to values.
 
-    `color` (4,), `opacity`, `ambient`, `diffuse`, `specular`, `shininess`, `texture` and so on. It may want `color`, the
-    colour so far.
+    `color` (4,), `opacity`, `ambient`, `diffuse`, `specular`, `shininess`, `texture` and so on. It may want `color`,
+    the colour so far.
     """
 
     __slots__ = ()
@@ -339,7 +344,10 @@ class Coloring(Change):
 
 
 class Mapping(Change):
-    """A change of the texture coordinates. Its function `uv` answers (V, 2); it may want `points`, `uv` and `position`."""
+    """A change of the texture coordinates. Its function `uv` answers (V, 2).
+
+    It may want `points`, `uv` and `position`.
+    """
 
     __slots__ = ()
 

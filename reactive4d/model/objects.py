@@ -339,6 +339,32 @@ class Object:
         return self.channel("points", lambda obj: obj.form.now().need("points").now())
 
     @property
+    def outline(self) -> Signal[Array]:
+        """(n, 3), the points of a path or shape in world space."""
+        return self.channel("outline", _outline)
+
+    @property
+    def points_of(self) -> Signal[Array]:
+        """(N, 3), the control points of a path."""
+        return self.attribute("controls")
+
+    def along(self, u: Any) -> Signal[Array]:
+        """(3,), a point of a path in world space, as a signal.
+
+        Args:
+            u: from 0, its beginning, to 1, its end; a number or a signal.
+        """
+        from reactive4d.model import journeys
+
+        return journeys.along(self, u)
+
+    def tangent_along(self, u: Any) -> Signal[Array]:
+        """(3,), the direction of a path at a point of it, of length 1."""
+        from reactive4d.model import journeys
+
+        return journeys.tangent_along(self, u)
+
+    @property
     def weld(self) -> Signal[NDArray[np.int32] | None]:
         """(V,), for every point the first one at the same place, or None where no two points are."""
         return self.channel("weld", lambda obj: _surface_part(obj, "weld"))
@@ -699,6 +725,10 @@ def _bounds(obj: Object) -> Array:
         raise EvaluationError(f"{obj.name} has no points, and so no bounds")
     placed = transforms.transform_points(obj.matrix.now(), points)
     return np.array([placed.min(axis=0), placed.max(axis=0)], dtype=np.float64)
+
+
+def _outline(obj: Object) -> Array:
+    return transforms.transform_points(obj.matrix.now(), np.asarray(obj.points.now(), dtype=np.float64))
 
 
 def _look(obj: Object) -> dict[str, Any]:

@@ -6,7 +6,11 @@ negative number smaller than all given before, so that it comes right after it, 
 """
 
 import itertools
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from reactive4d.model.changes import Change
+    from reactive4d.model.objects import Object
 
 __all__ = ["Entry", "Place", "following", "last"]
 
@@ -40,7 +44,7 @@ class Entry:
 
     __slots__ = ("__weakref__", "change", "owner", "place")
 
-    def __init__(self, change: Any, owner: Any, place: Place) -> None:
+    def __init__(self, change: "Change", owner: "Object", place: Place) -> None:
         self.change = change
         self.owner = owner
         self.place = place
