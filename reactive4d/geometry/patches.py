@@ -1,9 +1,9 @@
 """Spline patches: surfaces that a net of control points spans, as curves span a line.
 
-A **net** is R rows of C points. Along each row and each column the points are blended as those of a curve, so a frame is
-two products with bases that hold for ever. The parameter u runs along a row, v from row to row; the surface
-looks to where u, v and its normal are right-handed. A bicubic Bézier patch is a net of 4 by 4; chains of them
-are nets of 3 i + 1 by 3 j + 1 (`kind="bezier"`); `kind="bspline"` gives smooth patches of any net.
+A **net** is R rows of C points. Along each row and each column the points are blended as those of a curve, so a frame
+is two products with bases that hold for ever. The parameter u runs along a row, v from row to row; the surface looks to
+where u, v and its normal are right-handed. A bicubic Bézier patch is a net of 4 by 4, chains of them nets of 3 i + 1
+by 3 j + 1 (`kind="bezier"`); `kind="bspline"` gives smooth patches of any net.
 """
 
 from collections.abc import Sequence
