@@ -140,10 +140,17 @@ def oriented(outline: Outline) -> tuple[Floats, ...]:
     (True, True, True)
     """
     rings = contours(outline)
+    if not rings:
+        return ()
+    # All rings at once: texts have hundreds.
+    a = np.concatenate(rings)
+    b = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    owner = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
     answer: list[Floats] = []
     for i, ring in enumerate(rings):
-        depth = sum(_holds(other, ring[0]) for j, other in enumerate(rings) if j != i)
-        answer.append(freeze(ring[::-1].copy()) if (_signed_area(ring) < 0) != bool(depth % 2) else ring)
+        holders = np.bincount(owner[_right_of(ring[0], a, b)], minlength=len(rings)) % 2
+        is_hole = bool((holders.sum() - holders[i]) % 2)
+        answer.append(freeze(ring[::-1].copy()) if (_signed_area(ring) < 0) != is_hole else ring)
     return tuple(answer)
 
 
@@ -231,13 +238,12 @@ def _signed_area(ring: Floats) -> float:
     return float((centered[:, 0] * after[:, 1] - after[:, 0] * centered[:, 1]).sum()) / 2
 
 
-def _holds(ring: Floats, point: Floats) -> bool:
-    """Whether a point lies inside of a ring: a ray to the right crosses it an odd number of times."""
-    a, b = ring, np.roll(ring, -1, axis=0)
-    across = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
+def _right_of(point: Floats, a: Floats, b: Floats) -> NDArray[np.intp]:
+    """The sides a to b that a ray from a point to the right crosses: of a ring around it an odd number."""
+    across = np.flatnonzero((a[:, 1] > point[1]) != (b[:, 1] > point[1]))
     a, b = a[across], b[across]
     x = a[:, 0] + (point[1] - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
-    return bool(np.count_nonzero(x > point[0]) % 2)
+    return across[x > point[0]]
 
 
 def _size(value: float, name: str) -> float:
