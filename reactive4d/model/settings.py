@@ -10,11 +10,11 @@ takes what a signal answers while it is evaluated.
 """
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeAlias, TypeGuard, TypeVar, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint, unknown
@@ -24,13 +24,42 @@ from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 
 if TYPE_CHECKING:
-    from reactive4d.model.attributes import Attribute
+    from reactive4d.model.attributes import Attribute, Part
+    from reactive4d.model.changes import Change
 
-__all__ = ["Choice", "Flag", "Float", "Held", "Integer", "Paint", "Places", "Reference", "Setting", "Text", "Vector"]
+__all__ = [
+    "Choice",
+    "Flag",
+    "Float",
+    "Held",
+    "Integer",
+    "Paint",
+    "Places",
+    "Reference",
+    "Setting",
+    "Text",
+    "Vector",
+    "declared",
+    "is_signal",
+]
 
 T = TypeVar("T")
+V = TypeVar("V")
 Array = NDArray[np.float64]
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+# What may be assigned to a vector: numbers, a signal of them, or numbers and signals of numbers.
+Numbers: TypeAlias = ArrayLike | Signal[Any] | Sequence[float | Signal[Any]]
+AXES: dict[str, tuple[float, float, float]] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def is_signal(content: Any) -> TypeGuard[Signal[Any]]:
+    """Whether an assigned content is a signal."""
+    return isinstance(content, Signal)
+
+
+def declared(owner: type) -> "dict[str, Setting[Any]]":
+    """The settings in the body of a class, by name, in their order."""
+    found: dict[str, Any] = {name: value for name, value in vars(owner).items() if isinstance(value, Setting)}
+    return found
 
 
 class Setting(Generic[T]):
@@ -64,6 +93,8 @@ class Setting(Generic[T]):
     @overload
     def __get__(self, obj: None, owner: type) -> Self: ...
     @overload
+    def __get__(self, obj: "Change", owner: type) -> "Part[T]": ...
+    @overload
     def __get__(self, obj: object, owner: type) -> "Attribute[T]": ...
     def __get__(self, obj: Any, owner: type) -> Any:
         return self if obj is None else obj.attribute(self.name)
@@ -80,13 +111,13 @@ class Setting(Generic[T]):
         Raises:
             ShapeError: it cannot be meant.
         """
-        if isinstance(value, Signal) or (value is None and self.is_optional):
+        if is_signal(value) or (value is None and self.is_optional):
             return value
         return self.check(value)
 
     def signal(self, content: Any) -> Signal[Any] | None:
         """What has to be asked for an admitted content: the signal that was assigned; None for a constant."""
-        return content if isinstance(content, Signal) else None
+        return content if is_signal(content) else None
 
     def constant(self, content: Any) -> Any:
         """An admitted constant as kernels take it."""
@@ -112,7 +143,23 @@ class Setting(Generic[T]):
         return ShapeError(f"{self.path}: expected {expected}, got {shown}")
 
 
-class Float(Setting[float]):
+class Typed(Setting[T], Generic[T, V]):
+    """A setting of which it is known what may be assigned, V, and what it answers, T."""
+
+    if TYPE_CHECKING:  # both in one class: else a type checker takes what was assigned for what is read
+
+        @overload
+        def __get__(self, obj: None, owner: type) -> Self: ...
+        @overload
+        def __get__(self, obj: "Change", owner: type) -> "Part[T]": ...
+        @overload
+        def __get__(self, obj: object, owner: type) -> "Attribute[T]": ...
+        def __get__(self, obj: Any, owner: type) -> Any: ...
+
+        def __set__(self, obj: Any, value: V) -> None: ...
+
+
+class Float(Typed[float, float | Signal[Any] | None]):
     """A number.
 
     >>> import reactive4d as r4
@@ -133,20 +180,18 @@ class Float(Setting[float]):
         self.low, self.high = low, high
         super().__init__(default, doc=doc, unit=unit)
 
-    def __set__(self, obj: Any, value: float | Signal[Any] | None) -> None:
-        super().__set__(obj, value)
-
     def check(self, value: Any) -> Any:
         """A finite number within the bounds."""
+        number: Any = value
         if type(value) is not float:
             if value is None and self.is_optional:
                 return None
             if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.number):
-                raise self.refused("a number", value)
-            value = float(value)  # pyright: ignore[reportArgumentType]
-        if not self.low <= value <= self.high or value in (math.inf, -math.inf):
-            raise self.refused(self._range(), value)
-        return value
+                raise self.refused("a number", number)
+            number = float(number)
+        if not self.low <= number <= self.high or number in (math.inf, -math.inf):
+            raise self.refused(self._range(), number)
+        return number
 
     def _range(self) -> str:
         if self.low > -math.inf and self.high < math.inf:
@@ -156,7 +201,7 @@ class Float(Setting[float]):
         return f"a number of at most {self.high:g}" if self.high < math.inf else "a finite number"
 
 
-class Integer(Setting[int]):
+class Integer(Typed[int, int | Signal[Any] | None]):
     """A whole number.
 
     >>> import reactive4d as r4
@@ -176,20 +221,18 @@ class Integer(Setting[int]):
         self.low, self.high = low, high
         super().__init__(default, doc=doc, unit=unit)
 
-    def __set__(self, obj: Any, value: int | Signal[Any] | None) -> None:
-        super().__set__(obj, value)
-
     def check(self, value: Any) -> Any:
         """A whole number within the bounds; a float is taken if it is whole."""
         if value is None and self.is_optional:
             return None
+        number: Any = value
         is_number = isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
-        if not is_number or not self.low <= value <= self.high or value != int(value):  # pyright: ignore
-            raise self.refused(f"a whole number from {self.low} to {self.high}", value)
-        return int(value)
+        if not is_number or not self.low <= number <= self.high or number != int(number):
+            raise self.refused(f"a whole number from {self.low} to {self.high}", number)
+        return int(number)
 
 
-class Flag(Setting[bool]):
+class Flag(Typed[bool, bool | float | Signal[Any]]):
     """A truth value; numbers are true unless they are 0.
 
     >>> import reactive4d as r4
@@ -198,17 +241,15 @@ class Flag(Setting[bool]):
     (False, True)
     """
 
-    def __set__(self, obj: Any, value: bool | Signal[Any]) -> None:
-        super().__set__(obj, value)
-
     def check(self, value: Any) -> Any:
         """True or False."""
-        if isinstance(value, bool | np.bool_ | int | float | np.number) and value == value:
-            return bool(value)
-        raise self.refused("True or False", value)
+        truth: Any = value
+        if isinstance(value, bool | np.bool_ | int | float | np.number) and truth == truth:
+            return bool(truth)
+        raise self.refused("True or False", truth)
 
 
-class Vector(Setting[Array]):
+class Vector(Typed[Array, Numbers | None]):
     """Several numbers: three, unless told otherwise.
 
     Args:
@@ -239,9 +280,6 @@ class Vector(Setting[Array]):
         self.is_direction, self.spreads, self.low, self.is_whole = is_direction, spreads, low, is_whole
         super().__init__(default, doc=doc, unit=unit)
 
-    def __set__(self, obj: Any, value: Any) -> None:
-        super().__set__(obj, value)
-
     def admit(self, value: Any) -> Any:
         """Numbers, or a signal of them; signals among the numbers make a signal of vectors."""
         if isinstance(value, tuple | list) and any(isinstance(x, Signal) for x in value):  # pyright: ignore
@@ -261,11 +299,11 @@ class Vector(Setting[Array]):
                 raise self.refused('"x", "y", "z" or three numbers', value)
             value = AXES[value]
         try:
-            array = np.asarray(value, dtype=np.float64)
+            array: Array = np.asarray(value, dtype=np.float64)
         except (TypeError, ValueError):
             raise self.refused(self._expected(), value) from None
         if self.spreads and array.ndim == 0:
-            array = np.full(self.shape, float(array))
+            array = np.full(tuple([n or 0 for n in self.shape]), float(array))
         if array.ndim != len(self.shape) or any(
             n not in (None, m) for n, m in zip(self.shape, array.shape, strict=True)
         ):
@@ -300,7 +338,7 @@ def _listed(array: Array) -> str:
     return f"({numbers}{', …' if array.size > 6 else ''})"
 
 
-class Paint(Setting[Array]):
+class Paint(Typed[Array, ArrayLike | Signal[Any] | None]):
     """A colour: a CSS name, a hexadecimal code, or three or four numbers; answers four sRGB floats.
 
     >>> import reactive4d as r4
@@ -308,12 +346,9 @@ class Paint(Setting[Array]):
     array([1., 0., 0., 1.])
     """
 
-    def __set__(self, obj: Any, value: Any) -> None:
-        super().__set__(obj, value)
-
     def admit(self, value: Any) -> Any:
         """A colour as it was written, so that it reads back; or a signal of colours."""
-        if isinstance(value, Signal) or (value is None and self.is_optional):
+        if is_signal(value) or (value is None and self.is_optional):
             return value
         if isinstance(value, str):
             self.check(value)
@@ -326,15 +361,16 @@ class Paint(Setting[Array]):
 
     def check(self, value: Any) -> Any:
         """Four floats."""
+        given: Any = value
         if value is None and self.is_optional:
             return None
         try:
-            return color(value)
+            return color(given)
         except ShapeError as error:
             raise ShapeError(f"{self.path}: {error}") from None
 
 
-class Text(Setting[str]):
+class Text(Typed[str, str | Signal[Any] | None]):
     """A string.
 
     >>> import reactive4d as r4
@@ -345,9 +381,6 @@ class Text(Setting[str]):
     def __init__(self, default: str | None = None, *, longest: int = 10_000, doc: str = "") -> None:
         self.longest = longest
         super().__init__(default, doc=doc)
-
-    def __set__(self, obj: Any, value: Any) -> None:
-        super().__set__(obj, value)
 
     def check(self, value: Any) -> Any:
         """A string that is not too long."""
@@ -360,7 +393,7 @@ class Text(Setting[str]):
         return value
 
 
-class Choice(Setting[str]):
+class Choice(Typed[str, str | Signal[Any]]):
     """One of several names.
 
     >>> import reactive4d as r4
@@ -371,9 +404,6 @@ class Choice(Setting[str]):
     def __init__(self, default: str, *, options: tuple[str, ...], doc: str = "") -> None:
         self.options = options
         super().__init__(default, doc=doc)
-
-    def __set__(self, obj: Any, value: Any) -> None:
-        super().__set__(obj, value)
 
     def check(self, value: Any) -> Any:
         """One of the options."""
@@ -409,11 +439,12 @@ def _held(value: Any, depth: int = 0) -> Any:
         raise ShapeError(f"a list nested deeper than {MOST_NESTED}")
     if isinstance(value, list | tuple):
         return tuple([_held(x, depth + 1) for x in value])  # pyright: ignore[reportUnknownVariableType]
+    given: Any = value
     if isinstance(value, np.ndarray):
-        return freeze(np.array(value))
-    if isinstance(value, float | np.floating) and value != value:
+        return freeze(np.array(given))
+    if isinstance(value, float | np.floating) and given != given:
         raise ShapeError("nan is not a value")
-    return value.item() if isinstance(value, np.generic) else value
+    return given.item() if isinstance(value, np.generic) else given
 
 
 class Reference(Setting[Any]):
@@ -428,9 +459,6 @@ class Reference(Setting[Any]):
         self.channel = channel
         super().__init__(default, doc=doc)
         self.is_optional = True
-
-    def __set__(self, obj: Any, value: Any) -> None:
-        super().__set__(obj, value)
 
     def signal(self, content: Any) -> Signal[Any] | None:
         """The channel of the object, or of whichever object the signal answers."""
@@ -452,7 +480,7 @@ class Reference(Setting[Any]):
 
     def admit(self, value: Any) -> Any:
         """An object, or a signal of objects."""
-        return value if isinstance(value, Signal) else self._object(value)
+        return value if is_signal(value) else self._object(value)
 
     def _object(self, value: Any) -> Any:
         if value is None or hasattr(value, "changes"):
@@ -476,6 +504,18 @@ class Places(Vector):
     def __init__(self, default: Any = None, *, fewest: int = 1, most: int = 100_000, doc: str = "") -> None:
         self.fewest, self.most = fewest, most
         super().__init__(default, size=(None, 3), unit="m", doc=doc)
+
+    if TYPE_CHECKING:  # objects, too, may be assigned
+
+        @overload
+        def __get__(self, obj: None, owner: type) -> Self: ...
+        @overload
+        def __get__(self, obj: "Change", owner: type) -> "Part[Array]": ...
+        @overload
+        def __get__(self, obj: object, owner: type) -> "Attribute[Array]": ...
+        def __get__(self, obj: Any, owner: type) -> Any: ...
+
+        def __set__(self, obj: Any, value: Any) -> None: ...
 
     def admit(self, value: Any) -> Any:
         """Numbers as an array; a list with something alive in it as a tuple of its members."""
