@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .asking import asking
+from .deforming import deforming
 from .editing import editing
 from .graph_speed import graph_speed
 from .growth import growth
@@ -27,6 +28,7 @@ BENCHMARKS = {
     "editing": editing,
     "memory": memory,
     "sampling": sampling,
+    "deforming": deforming,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 

@@ -1,6 +1,7 @@
 """What holds for every deformation: identity, types, frames, weights, derivatives, and stacks in blocks."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from reactive4d.arrays import same
+from reactive4d.arrays import freeze, same
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.deformations import stacks
 from reactive4d.geometry.deformations.bends import Bend
@@ -25,6 +26,7 @@ from reactive4d.geometry.deformations.twists import Twist
 from reactive4d.geometry.deformations.waves import Ripple, Wave
 from reactive4d.geometry.lattices import FreeForm, lattice
 from reactive4d.geometry.transforms import (
+    IDENTITY,
     compose,
     inverse,
     rotation,
@@ -184,6 +186,13 @@ def test_the_derivative_is_that_of_the_map(step: Step):
 
 
 @every
+def test_differences_stand_in_for_a_derivative(step: Step):
+    """A family that does not know its derivative has one all the same, which agrees with the exact one."""
+    points = cloud(100).astype(np.float64)
+    assert np.allclose(Step.gradient(step, points, (-1.0, 1.0)), step.gradient(points, (-1.0, 1.0)), atol=1e-6)
+
+
+@every
 def test_normals_agree_with_a_fine_mesh(step: Step):
     """The normals by the derivative are those of the small triangles of a finely meshed sphere."""
     centers, normals = sphere(400)
@@ -316,6 +325,37 @@ def test_the_order_of_steps_matters():
     bend, twist = Bend(1.5), Twist(1.5, "x")
     apart = np.abs(deform(points, [bend, twist]) - deform(points, [twist, bend]))
     assert apart.max() > 0.5
+
+
+def test_blocks_do_not_show(monkeypatch: pytest.MonkeyPatch):
+    """Steps that wait for all points between them answer the same, to the bit, in one block or in many."""
+    points = cloud(1_001)
+    steps = [STEPS[name] for name in ("bend", "twist", "lattice", "bend sideways", "wave")]
+    weights = np.linspace(0.0, 1.0, len(points), dtype=np.float32)
+    whole = [deform(points, steps, before=FRAME, weights=chosen) for chosen in (None, weights)]
+    monkeypatch.setattr(stacks, "_BLOCK", 100)
+    parts = [deform(points, steps, before=FRAME, weights=chosen) for chosen in (None, weights)]
+    assert np.array_equal(whole, parts)
+
+
+def test_a_stack_that_moves_nothing_gives_the_points_back():
+    """Frozen points that nothing moves come back as they are, without a copy; others as a frozen copy."""
+    points = freeze(cloud())
+    assert deform(points, [Bend(0.0)]) is points
+    assert transform_points(IDENTITY, points) is points
+    loose = cloud()
+    assert deform(loose, []) is not loose
+    assert not deform(loose, []).flags.writeable
+
+
+def test_threads_do_not_disturb_each_other():
+    """Several threads may deform at once: none works in the memory of another."""
+    points = cloud(60_000)
+    steps = [STEPS[name] for name in ("taper", "bend within limits", "twist", "lattice")]
+    expected = deform(points, steps)
+    with ThreadPoolExecutor(4) as pool:
+        answers = list(pool.map(lambda _: deform(points, steps), range(8)))
+    assert all(np.array_equal(answer, expected) for answer in answers)
 
 
 @every

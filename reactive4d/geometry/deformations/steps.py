@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.arrays import same
-from reactive4d.geometry.transforms import Matrix, inverse
+from reactive4d.geometry.transforms import IDENTITY, Matrix, inverse
 
 from .limits import Column, Extent
 
-__all__ = ["Kernel", "Step"]
+__all__ = ["FREE", "Kernel", "Step"]
+
+FREE = 6  # Columns to work in that a kernel may count on.
 
 # Changes the local columns x, y, z in place; the list holds free columns of the same length to work in.
 Kernel: TypeAlias = Callable[[Column, Column, Column, list[Column]], object]
@@ -22,17 +24,32 @@ Kernel: TypeAlias = Callable[[Column, Column, Column, list[Column]], object]
 class Step(ABC):
     """One deformation of space, an immutable value.
 
-    A family says in which frame it works (`space`), what it does to columns there (`bind`), and its derivative there
-    (`gradient`). Steps are the same if all of their fields are, to the byte.
+    A family is a frozen dataclass with slots and `eq=False`. It says what it does to columns (`bind`), and if there is
+    more to say, in which frame (`space`), what it keeps there, whether it needs an extent, and its exact derivative.
+    Steps are the same if all of their fields are, to the byte.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True, slots=True, eq=False)
+    ... class Pinch(Step):
+    ...     strength: float
+    ...
+    ...     def bind(self, extent, dtype):
+    ...         def pinch(x, y, z, free):
+    ...             np.multiply(y, np.exp(-np.abs(x) * self.strength), y)
+    ...
+    ...         return pinch if self.strength else None
+    >>> Pinch(0.5).map(np.float32([[0, 1, 0], [2, 1, 0]]), (0, 0)).round(4)
+    array([[0.    , 1.    , 0.    ],
+           [2.    , 0.3679, 0.    ]], dtype=float32)
     """
 
     __slots__ = ()
     compares_exactly: ClassVar[bool] = True
 
     @property
-    @abstractmethod
     def space(self) -> Matrix:
         """From the step's own frame to the space of the points."""
+        return IDENTITY
 
     @property
     def needs_extent(self) -> bool:
@@ -51,9 +68,25 @@ class Step(ABC):
         A kernel may use six free columns. What it does to a point must not depend on the point's neighbours.
         """
 
-    @abstractmethod
     def gradient(self, points: NDArray[Any], extent: Extent) -> NDArray[Any]:
-        """The derivative (V, 3, 3) of the local map at local points (V, 3): rows are results, columns are arguments."""
+        """The derivative (V, 3, 3) of the local map at local points (V, 3): rows are results, columns are arguments.
+
+        A family that does not know its own gets it from differences, to about eight digits.
+        """
+        exact = np.asarray(points, np.float64)
+        size = 6e-6 * max(1.0, float(np.abs(exact).max(initial=0.0)))  # The cube root of the rounding.
+        slopes = np.empty((len(exact), 3, 3))
+        for place in range(3):
+            ends: list[NDArray[Any]] = []
+            for way in (size, -size):
+                columns = exact.T.copy()
+                columns[place] += way
+                kernel = self.bind(extent, exact.dtype)
+                if kernel is not None:
+                    kernel(columns[0], columns[1], columns[2], [*np.empty((FREE, len(exact)))])
+                ends.append(columns.T)
+            slopes[:, :, place] = (ends[0] - ends[1]) / (2.0 * size)
+        return slopes.astype(points.dtype)
 
     def extent(self, points: NDArray[Any]) -> Extent:
         """How far points (V, 3) reach along the step's axis from its centre, in its own frame.
