@@ -19,7 +19,7 @@ _STRAIGHT = 1e-12  # Radians; a smaller angle moves a point by less than float32
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bend(Step):
-    """Bends space round a circle, as a bar is bent over a knee (Barr 1984, section 4).
+    """Bends space round a circle, as a bar is bent over a knee (Barr 1984).
 
     The centre line through `center` along `axis` keeps its length: an extent h becomes an arc of radius h / angle.
     Sections across the axis stay flat and are only turned, the centre not at all. Beyond the limits all goes on

@@ -37,8 +37,8 @@ def deform_with_normals(
 
     Returns:
         The points and the normals, (V, 3) each, in the type of the points, frozen; normals of length 1. They follow
-        the faces: where a step or a matrix turns space inside out, they point where the faces then do (Barr 1984,
-        section 2: normals go by the inverse transpose, here by the cofactors, which exist where no inverse does).
+        the faces: where a step or a matrix turns space inside out, they point where the faces then do (Barr 1984:
+        normals go by the inverse transpose, here by the cofactors, which exist where no inverse does).
 
     Raises:
         ShapeError: a shape does not fit, or the frame of a step is singular.

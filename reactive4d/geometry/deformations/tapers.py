@@ -18,7 +18,7 @@ __all__ = ["Taper"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Taper(Step):
-    """Scales sections across an axis by a factor that changes along it (Barr 1984, section 3).
+    """Scales sections across an axis by a factor that changes along it (Barr 1984).
 
     At the distance d from the centre along the axis, and the share w of the way from the lower end to the upper one,
     the factor is 1 + amount · d / length + curve · 4 w (1 - w).

@@ -17,7 +17,7 @@ __all__ = ["Twist"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Twist(Step):
-    """Twists space round an axis, as a cloth is wrung; it keeps volume (Barr 1984, section 3).
+    """Twists space round an axis, as a cloth is wrung; it keeps volume (Barr 1984).
 
     Args:
         angle: radians, from one end of the extent along the axis to the other, or from `lower` to `upper`.
