@@ -267,8 +267,12 @@ class Change:
             was = gate.content
             gate.set_content(content)
             if was is not content:
-                for own in list(self._lists or ()):
-                    own.refresh()
+                self.refresh()
+
+    def refresh(self) -> None:
+        """Tell the lists in which it stands when it acts by now; within a transaction."""
+        for own in list(self._lists or ()):
+            own.refresh()
 
     def enter(self, own: "Own") -> None:
         """Remember a list that it stands in, to tell it when it is enabled or disabled."""

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.links import link
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.keys import Keys
 from reactive4d.signals.settables import Settable, curve_difference
 
 if TYPE_CHECKING:
@@ -17,10 +18,11 @@ INF = float("inf")
 class Gate(Settable[bool]):
     """Whether a change acts."""
 
-    __slots__ = ("change",)
+    __slots__ = ("change", "follower")
 
     def __init__(self, change: "Change", content: Any) -> None:
         self.change = change
+        self.follower: Follower | None = None
         super().__init__(content, name="")
 
     @property
@@ -53,25 +55,43 @@ class Gate(Settable[bool]):
             link(self, self.inputs)
         else:
             self._be_source()
+        if isinstance(self.content, Keys):
+            # The lists know over which spans the change acts, so they must hear when others are made.
+            if self.follower is None:
+                self.follower = Follower(self.change)
+            self.content.accompany(self.follower)  # pyright: ignore[reportArgumentType]
 
     def function(self, *values: Any) -> Any:
         """Whether what the signal says counts as true."""
         return type(self.change).enabled.check(values[1])
 
 
-def open_spans(gate: Gate | bool) -> list[tuple[float, float]]:
-    """Where a change may act: nowhere, everywhere, or the spans of steps that say so."""
-    if gate is True or gate is False:
-        return [(-INF, INF)] if gate else []
-    curve = getattr(gate.content, "curve", None)
-    if (
-        curve is None
-        or curve.is_live
-        or curve.interpolation != "step"
-        or (curve.before, curve.after) != ("hold", "hold")
-    ):
-        return [(-INF, INF)]
+class Follower:
+    """What the steps that say when a change acts tell of their edits: the lists in which the change stands."""
+
+    __slots__ = ("__weakref__", "change")
+
+    def __init__(self, change: "Change") -> None:
+        self.change = change
+
+    def set_content(self, curve: Any) -> None:
+        """Let the lists know; within the edit of the keys."""
+        self.change.refresh()
+
+
+def open_spans(gate: Gate) -> tuple[tuple[float, float], ...] | None:
+    """Where a change acts, if the steps of keys say so; None where that has to be asked."""
+    curve = _steps(gate.content)
+    if curve is None:
+        return None
     times: list[float] = list(curve.times)
-    values = [curve.sample(t)[2] for t in times]
     starts, stops = [-INF, *times[1:]], [*times[1:], INF]
-    return [(lo, hi) for lo, hi, value in zip(starts, stops, values, strict=True) if value]
+    spans = [(lo, hi) for lo, hi, t in zip(starts, stops, times, strict=True) if curve.sample(t)[2]]
+    return tuple(spans)
+
+
+def _steps(content: Any) -> Any:
+    curve = getattr(content, "curve", None)
+    if curve is None or curve.is_live or curve.interpolation != "step":
+        return None
+    return curve if (curve.before, curve.after) == ("hold", "hold") else None

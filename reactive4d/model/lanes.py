@@ -3,9 +3,13 @@
 Its content is a tuple of items in the order of their places. An item is an `Entry` whose change acts always, a `Gated`
 one, whose change acts for a while only, or an `Idle` one, whose change is disabled. Idle items concern nobody, so
 enabling a change again brings an earlier content back, and with it all that was remembered.
+
+Where steps say when a change acts, the item has their spans: outside of them nobody needs to hear of the change, nor to
+read its gate. So whatever edits the steps refreshes the items too.
 """
 
 from bisect import bisect_left
+from itertools import pairwise
 from typing import TYPE_CHECKING
 from weakref import WeakValueDictionary
 
@@ -24,8 +28,8 @@ __all__ = ["Entries", "Gated", "Idle", "Item", "Own", "acting", "before", "entry
 INF = float("inf")
 
 
-class Gated(tuple[Entry, Gate]):
-    """An entry whose change acts while its gate is open."""
+class Gated(tuple[Entry, Gate, "Spans | None"]):
+    """An entry whose change acts while its gate is open; with the spans where that is, or None if they are not known."""
 
     __slots__ = ()
 
@@ -48,12 +52,16 @@ class Idle(tuple[Entry]):
 
 Item = Entry | Gated | Idle
 Items = tuple[Item, ...]
+Spans = tuple[tuple[float, float], ...]
+EVERYWHERE: Spans = ((-INF, INF),)
 
 
 def item(entry: Entry) -> Item:
     """An entry as its change is by now: acting, gated or idle."""
     gating = entry.change.gating
-    return entry if gating is True else Idle((entry,)) if gating is False else Gated((entry, gating))
+    if gating is True:
+        return entry
+    return Idle((entry,)) if gating is False else Gated((entry, gating, open_spans(gating)))
 
 
 def entry_of(item: Item) -> Entry:
@@ -85,20 +93,35 @@ class Entries(Signal[Items], Source):
         return True
 
     def difference(self, old: Items, new: Items) -> list[tuple[float, float]]:
-        """Where the entries that differ may act; everywhere if the order of others differs."""
+        """Where an entry acts in one of them and not in the other."""
         if old is new:
             return []
-        was = [x for x in old if type(x) is not Idle]
-        now = [x for x in new if type(x) is not Idle]
-        if was == now:
-            return []
-        before, after = set(was), set(now)
-        if [x for x in was if x in after] != [x for x in now if x in before]:
-            return [(-INF, INF)]
+        was, now = {entry_of(x): x for x in old}, {entry_of(x): x for x in new}
         spans: list[tuple[float, float]] = []
-        for x in before ^ after:
-            spans.extend(open_spans(x[1]) if isinstance(x, Gated) else [(-INF, INF)])
+        for entry in {**was, **now}:
+            before, after = was.get(entry), now.get(entry)
+            if before is not after and before != after:
+                spans.extend(_apart(before, after))
         return spans
+
+
+def _apart(before: Item | None, after: Item | None) -> list[tuple[float, float]]:
+    """Where an entry acts either before or after an edit; everywhere if its gate says where."""
+    a, b = _acts(before), _acts(after)
+    if a is None or b is None:
+        return list(EVERYWHERE)
+    ends = sorted({t for span in (*a, *b) for t in span})
+    return [(lo, hi) for lo, hi in pairwise(ends) if _within(lo, a) != _within(lo, b)]
+
+
+def _acts(item: Item | None) -> Spans | None:
+    if item is None or type(item) is Idle:
+        return ()
+    return item[2] if isinstance(item, Gated) else EVERYWHERE
+
+
+def _within(t: float, spans: Spans) -> bool:
+    return any(lo <= t < hi for lo, hi in spans)
 
 
 class Own(Entries):
@@ -122,7 +145,7 @@ class Own(Entries):
         self.put(tuple([item(entry_of(x)) for x in self.content]))
 
     def before(self, place: Place) -> "Entries | None":
-        """The entries before a place, as a source that does not hear of edits after it; None while edits are under way."""
+        """The entries before a place, as a source that hears of no edits after it; None while edits are under way."""
         with LOCK:
             if self.engine.owner is not None:
                 return None
