@@ -17,19 +17,19 @@ class Frame(Mapping[str, Node]):
     True
     """
 
-    __slots__ = ("_items", "_named", "_nodes", "time")
+    __slots__ = ("_items", "_named", "_bundle", "time")
 
-    def __init__(self, time: float, items: tuple[tuple[str, Any], ...], nodes: Any) -> None:
+    def __init__(self, time: float, items: tuple[tuple[str, Any], ...], bundle: Any) -> None:
         self.time = time
         self._items = items
-        self._nodes = nodes
+        self._bundle = bundle
         self._named: dict[str, Node] | None = None
 
     def _all(self) -> dict[str, Node]:
         named = self._named
         if named is None:
             named = {}
-            for (name, _), node in zip(self._items, _flat(self._nodes), strict=True):
+            for (name, _), node in zip(self._items, self._bundle.flat(), strict=True):
                 _enter(named, name, node)
             self._named = named
         return named
@@ -45,14 +45,6 @@ class Frame(Mapping[str, Node]):
 
     def __repr__(self) -> str:
         return f"<Frame at {self.time:g} s: {', '.join(self)}>"
-
-
-def _flat(nodes: Any) -> Iterator[Node]:
-    for node in nodes:
-        if isinstance(node, Node):
-            yield node
-        else:
-            yield from _flat(node)
 
 
 def _enter(named: dict[str, Node], name: str, node: Node) -> None:

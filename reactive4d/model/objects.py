@@ -453,12 +453,12 @@ class Object:
     @property
     def paint(self) -> Signal[Array]:
         """(4,), the colour and how opaque it is: the settings `color` and `opacity`, and the changes on top."""
-        return self.channel("paint", lambda obj: _look(obj)["color"])
+        return self.channel("paint", lambda obj: look_of(obj)["color"])
 
     @property
     def look(self) -> Signal[Mapping[str, Any]]:
         """All that is known of how the surface looks, by name: `color`, `specular`, `texture` and so on."""
-        return self.channel("look", lambda obj: MappingProxyType(_look(obj)))
+        return self.channel("look", lambda obj: MappingProxyType(look_of(obj)))
 
     def intersect(self, origins: ArrayLike, directions: ArrayLike) -> "Signal[Hits]":
         """Where rays meet it first.
@@ -617,15 +617,12 @@ def _kind(obj: Object) -> type[Object]:
 
 def base_of(obj: Object, kind: type[Object]) -> Base:
     """The form that a kind makes of the settings of an object, or of its prototype where they are the same."""
-    while True:
-        prototype = obj.prototype.now()
-        if prototype is None:
-            break
+    prototype = obj.prototype.now()
+    if prototype is not None:
         names = obj._names  # pyright: ignore[reportPrivateUsage]
         own = names.now() if names is not None else ()
-        if any(name in kind.settings and name not in _UNSHAPED for name in own):
-            break
-        obj = prototype
+        if not any(name in kind.settings and name not in _UNSHAPED for name in own):
+            return prototype.channel(f"base@{id(kind)}", lambda o: base_of(o, kind)).now()
     bases = obj._bases  # pyright: ignore[reportPrivateUsage]
     base = bases.get(kind)
     return base if base is not None else bases.setdefault(kind, Base(obj, kind))
@@ -703,14 +700,15 @@ def _uv(obj: Object) -> Any:
 
 
 def _surface(obj: Object) -> Mesh:
-    faces = obj.topology.now()
+    faces = _surface_part(obj, "faces")
+    form = obj.form.now()
     if faces is None:
-        obj.form.now().need("faces")
-    parts = {name: array for name, array in (("uv", obj.uv.now()), ("weld", obj.weld.now())) if array is not None}
+        form.need("faces")
+    parts = {"uv": _uv(obj), "weld": _surface_part(obj, "weld")}
     colors = base_of(obj, obj.kind.now()).part("colors")
     if colors is not None and len(faces) == len(colors.now()):
         parts["colors"] = colors.now()
-    return Mesh(obj.points.now(), faces, parts)
+    return Mesh(form.need("points").now(), faces, {name: part for name, part in parts.items() if part is not None})
 
 
 def _mesh(obj: Object) -> Mesh:
@@ -731,7 +729,8 @@ def _outline(obj: Object) -> Array:
     return transforms.transform_points(obj.matrix.now(), np.asarray(obj.points.now(), dtype=np.float64))
 
 
-def _look(obj: Object) -> dict[str, Any]:
+def look_of(obj: Object) -> dict[str, Any]:
+    """How the surface of an object looks, by name; only inside of an evaluation."""
     color = obj.color.now().copy()
     look: dict[str, Any] = {"color": color}
     for entry in acting(entries(obj, "paint")):

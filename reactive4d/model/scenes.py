@@ -6,7 +6,7 @@ from typing import Any
 from reactive4d.engine import Formula, Source, engine
 from reactive4d.errors import ShapeError, hint, unknown
 from reactive4d.model.frames import Frame
-from reactive4d.model.nodes import node_of
+from reactive4d.model.nodes import Node, node_of
 from reactive4d.model.objects import Object
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
@@ -40,8 +40,9 @@ class Scene(MutableMapping[str, Object]):
 
     def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:
         self._contents = Contents((), name="scene.objects")
-        self._tree: dict[tuple[Any, ...], Formula] = {}
-        self._frame = Function(self._gathered, name="scene")
+        self._bundles: dict[tuple[Any, ...], Gathered] = {}
+        self._root = Function(self._rooted, name="scene.root")
+        self._frame = Function(self._shown, name="scene")
         self.update({**(objects or {}), **named})
 
     # -- what it holds ---------------------------------------------------------------------------------------------
@@ -95,8 +96,8 @@ class Scene(MutableMapping[str, Object]):
 
     def at(self, t: float, /, **parameters: Any) -> Frame:
         """What a viewer needs at a time, for a reader's parameters."""
-        items, nodes = self._frame.at(t, **parameters)
-        return Frame(float(t), items, nodes)
+        root, bundle = self._frame.at(t, **parameters)
+        return Frame(float(t), root.items, bundle)
 
     @property
     def frame(self) -> Signal[Any]:
@@ -109,28 +110,59 @@ class Scene(MutableMapping[str, Object]):
 
         return next((obj for _, obj in self._contents.content if isinstance(obj, Camera)), None)
 
-    def _gathered(self) -> tuple[Items, Any]:
+    def _rooted(self) -> "Root":
+        """The nodes of all objects, in bundles of bundles; what the last ones had in common with these is kept."""
         items: Items = self._contents.now()
-        cells: list[Signal[Any]] = [node_of(obj) for _, obj in items]
-        known, self._tree = self._tree, {}
-        while len(cells) != 1:
-            cells = [self._gather(known, tuple(cells[i : i + FAN])) for i in range(0, len(cells), FAN)]
-            if not cells:
-                return items, ()
-        return items, cells[0].now() if len(items) > 1 else (cells[0].now(),)
+        cells: list[Any] = [node_of(obj) for _, obj in items]
+        known, self._bundles = self._bundles, {}
+        while len(cells) > 1 or cells and not isinstance(cells[0], Gathered):
+            cells = [self._gathered(known, tuple(cells[i : i + FAN])) for i in range(0, len(cells), FAN)]
+        return Root(items, cells[0] if cells else None)
 
-    def _gather(self, known: dict[tuple[Any, ...], Formula], cells: tuple[Any, ...]) -> Any:
+    def _gathered(self, known: "dict[tuple[Any, ...], Gathered]", cells: tuple[Any, ...]) -> "Gathered":
         cell = known.get(cells)
         if cell is None:
-            cell = Gathered(lambda *values: values, *cells, name="scene.nodes")
-        self._tree[cells] = cell
+            cell = Gathered(lambda *nodes: Bundle(nodes), *cells, name="scene.nodes")
+        self._bundles[cells] = cell
         return cell
+
+    def _shown(self) -> "tuple[Root, Any]":
+        root = self._root.now()
+        return root, Bundle(()) if root.cell is None else root.cell.now()
 
     def __repr__(self) -> str:
         return f"Scene({', '.join([f'{name}={obj!r}' for name, obj in self._contents.content])})"
 
 
-class Gathered(Signal[tuple[Any, ...]], Formula):
-    """Some nodes, or some of these."""
+class Bundle:
+    """Some nodes, or some bundles; it has no size of its own, since they are remembered elsewhere."""
+
+    __slots__ = ("nodes",)
+    nbytes = 0
+
+    def __init__(self, nodes: tuple[Any, ...]) -> None:
+        self.nodes = nodes
+
+    def flat(self) -> Iterator[Node]:
+        """All nodes below, in their order."""
+        for node in self.nodes:
+            if isinstance(node, Bundle):
+                yield from node.flat()
+            else:
+                yield node
+
+
+class Gathered(Signal[Bundle], Formula):
+    """A bundle as a signal."""
 
     __slots__ = ()
+
+
+class Root:
+    """What a scene holds, and the signal of all its nodes."""
+
+    __slots__ = ("cell", "items")
+
+    def __init__(self, items: Items, cell: Gathered | None) -> None:
+        self.items = items
+        self.cell = cell
