@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d.geometry.transforms import IDENTITY, Matrix, transform_points
+from reactive4d.geometry.transforms import IDENTITY, Matrix, inverse, transform_points
 
 from .limits import Extent
 from .steps import Step
@@ -52,14 +52,19 @@ def deform_with_normals(
     """
     before, after = IDENTITY if before is None else before, IDENTITY if after is None else after
     points = transform_points(before, points)
-    turned = np.asarray(normals).astype(np.float64) @ _cofactors(before[None, :3, :3])[0].T
+    turned = _carried(before, np.asarray(normals).astype(np.float64))
     for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
         extent = step.extent(points) if given is None else given
-        slopes = step.jacobian(points.astype(np.float64), extent, weights=weights)
-        turned = np.einsum("vij,vj->vi", _cofactors(slopes), turned)
+        space = step.space
+        back = inverse(space)
+        slopes = step.gradient(transform_points(back, points.astype(np.float64)), extent)
+        if weights is not None:
+            still = np.eye(3)
+            slopes = still + weights[:, None, None] * (slopes - still)
+        turned = _carried(space, _turned(slopes, _carried(back, turned)))
         points = step.map(points, extent, weights=weights)
     points = transform_points(after, points)
-    turned = turned @ _cofactors(after[None, :3, :3])[0].T
+    turned = _carried(after, turned)
     lengths = np.sqrt(np.einsum("ij,ij->i", turned, turned))
     lengths[lengths == 0.0] = 1.0
     unit = (turned / lengths[:, None]).astype(points.dtype)
@@ -67,7 +72,18 @@ def deform_with_normals(
     return points, unit
 
 
-def _cofactors(slopes: NDArray[Any]) -> NDArray[Any]:
-    """(V, 3, 3): the determinant times the inverse transpose."""
-    first, second, third = slopes[:, 0], slopes[:, 1], slopes[:, 2]
-    return np.stack([np.cross(second, third), np.cross(third, first), np.cross(first, second)], axis=1)
+def _carried(matrix: Matrix, normals: NDArray[Any]) -> NDArray[Any]:
+    """Normals (V, 3) through a matrix, by its cofactors: its determinant times the inverse transpose."""
+    a, b, c = matrix[:3, :3]
+    return normals @ np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
+
+
+def _turned(slopes: NDArray[Any], normals: NDArray[Any]) -> NDArray[Any]:
+    """Normals (V, 3) through a derivative (V, 3, 3), each by its own cofactors."""
+    (a, b, c), (d, e, f), (g, h, i) = slopes.transpose(1, 2, 0)
+    x, y, z = normals.T
+    turned = np.empty_like(normals)
+    turned[:, 0] = (e * i - f * h) * x + (f * g - d * i) * y + (d * h - e * g) * z
+    turned[:, 1] = (h * c - i * b) * x + (i * a - g * c) * y + (g * b - h * a) * z
+    turned[:, 2] = (b * f - c * e) * x + (c * d - a * f) * y + (a * e - b * d) * z
+    return turned
