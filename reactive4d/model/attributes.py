@@ -1,11 +1,12 @@
 """Attributes: the settings of an object and the values of a change, as signals that one sets."""
 
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from reactive4d.engine import Formula
 from reactive4d.engine.links import link
 from reactive4d.errors import Reactive4dError, hint
-from reactive4d.model.settings import Setting
+from reactive4d.model.settings import Setting, is_signal
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.settables import Settable, curve_difference
 from reactive4d.signals.sources import refuse_reading_itself
@@ -84,7 +85,7 @@ class Attribute(Settable[T]):
             Reactive4dError: a signal that reads this very attribute.
         """
         content = self.setting.admit(value)
-        if isinstance(content, Signal):
+        if is_signal(content):
             if content is self:
                 return
             _refuse_itself(self, content)
@@ -229,7 +230,7 @@ class Part(Signal[T], Formula):
     def __init__(self, change: "Change", setting: Setting[Any], index: int, values: Values) -> None:
         self.change = change
         self.setting = setting
-        super().__init__(lambda every: every[index], values, name="")
+        super().__init__(itemgetter(index), values, name="")
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]

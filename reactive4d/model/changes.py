@@ -21,7 +21,7 @@ from reactive4d.errors import Reactive4dError, unknown
 from reactive4d.model.attributes import Part, Values, refuse_own
 from reactive4d.model.gates import Gate
 from reactive4d.model.registries import CHANGES, kind_named
-from reactive4d.model.settings import Flag, Setting
+from reactive4d.model.settings import Flag, Setting, declared, is_signal
 from reactive4d.model.tables import arguments
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.sources import refuse_reading_itself
@@ -118,7 +118,7 @@ class Change:
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         found: dict[str, Setting[Any]] = {s.name: s for s in cls.settings}
-        found.update({n: s for n, s in vars(cls).items() if isinstance(s, Setting) and n != "enabled"})
+        found.update({name: setting for name, setting in declared(cls).items() if name != "enabled"})
         cls.settings = tuple(found.values())
         cls.indices = {name: i for i, name in enumerate(found)}
         cls.steps = {}
@@ -222,7 +222,7 @@ class Change:
         content = setting.admit(value)
         if content is None and not setting.is_optional:
             raise setting.refused("a value", value)
-        if isinstance(content, Signal):
+        if is_signal(content):
             if content is (self._parts or {}).get(name):
                 return
             refuse_own(self, name, content)
@@ -259,7 +259,7 @@ class Change:
     def set_enabled(self, content: Any) -> None:
         """Let it act, or not, or for a while only; in every list that it stands in."""
         gate = self.gate()
-        if isinstance(content, Signal):
+        if is_signal(content):
             if content is gate:
                 return
             refuse_reading_itself(gate, content)

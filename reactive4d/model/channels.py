@@ -45,7 +45,7 @@ def channel(answer: Callable[[Any], T]) -> property:
     """A read-only property that is a channel: the signal of what the function answers inside of an evaluation."""
     label = answer.__name__.strip("_")
 
-    def get(obj: "Object") -> Channel[T]:
+    def get(obj: "Object") -> Signal[T]:
         return obj.channel(label, answer)
 
     return property(get, doc=answer.__doc__)

@@ -97,7 +97,7 @@ class Twist(Stepped):
     """Twist about an axis; it keeps the volume (Barr 1984).
 
     >>> import reactive4d as r4
-    >>> column = r4.Box(size=(1, 1, 4), segments=(4, 4, 24))
+    >>> column = r4.Box(size=(1, 1, 4), segments=(8, 8, 48))
     >>> _ = column.apply(r4.Twist(r4.keys({0: 0, 4: 180})))
     >>> column.volume.at(0.0), round(column.volume.at(4.0), 1)
     (4.0, 4.0)
@@ -287,13 +287,13 @@ class Ripple(Stepped):
 class FreeForm(Stepped):
     """Deform space by a lattice of control points, of any size (Sederberg and Parry 1986).
 
-    The lattice rests where its points lie evenly in the box from `lower` to `upper`; `lattices.rest` of the geometry
-    gives such points.
+    The lattice rests where its points lie evenly in the box from `lower` to `upper`; `lattices.lattice` of the
+    geometry gives such points.
 
     >>> import reactive4d as r4
     >>> from reactive4d.geometry import lattices
     >>> ball = r4.Sphere()
-    >>> rest = lattices.rest((3, 3, 3), (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+    >>> rest = lattices.lattice((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5), (3, 3, 3))
     >>> ffd = ball.apply(r4.FreeForm(rest, lower=(-0.5, -0.5, -0.5), upper=(0.5, 0.5, 0.5)))
     """
 

@@ -17,7 +17,7 @@ class Frame(Mapping[str, Node]):
     True
     """
 
-    __slots__ = ("_items", "_named", "_bundle", "time")
+    __slots__ = ("_bundle", "_items", "_named", "time")
 
     def __init__(self, time: float, items: tuple[tuple[str, Any], ...], bundle: Any) -> None:
         self.time = time
@@ -26,7 +26,7 @@ class Frame(Mapping[str, Node]):
         self._named: dict[str, Node] | None = None
 
     def _all(self) -> dict[str, Node]:
-        named = self._named
+        named: dict[str, Node] | None = self._named
         if named is None:
             named = {}
             for (name, _), node in zip(self._items, self._bundle.flat(), strict=True):

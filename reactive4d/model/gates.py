@@ -50,16 +50,17 @@ class Gate(Settable[bool]):
 
     def adopt(self) -> None:
         """A constant makes it a source, a signal a formula."""
-        if isinstance(self.content, Signal):
-            self._be_formula(self.content)
+        content = self.content
+        if isinstance(content, Signal):
+            self._be_formula(content)
             link(self, self.inputs)
         else:
             self._be_source()
-        if isinstance(self.content, Keys):
+        if isinstance(content, Keys):
             # The lists know over which spans the change acts, so they must hear when others are made.
             if self.follower is None:
                 self.follower = Follower(self.change)
-            self.content.accompany(self.follower)  # pyright: ignore[reportArgumentType]
+            content.accompany(self.follower)  # pyright: ignore[reportArgumentType]
 
     def function(self, *values: Any) -> Any:
         """Whether what the signal says counts as true."""

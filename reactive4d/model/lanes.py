@@ -29,7 +29,7 @@ INF = float("inf")
 
 
 class Gated(tuple[Entry, Gate, "Spans | None"]):
-    """An entry whose change acts while its gate is open; with the spans where that is, or None if they are not known."""
+    """An entry whose change acts while its gate is open; and the spans where that is, or None if they are not known."""
 
     __slots__ = ()
 
@@ -73,6 +73,8 @@ class Entries(Signal[Items], Source):
     """Some entries of one object."""
 
     __slots__ = ("lane", "object")
+
+    lane: "Lane"
 
     def __init__(self, obj: "Object", lane: "Lane", content: Items) -> None:
         self.object = obj

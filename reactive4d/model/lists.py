@@ -22,8 +22,8 @@ C = TypeVar("C", bound=Change)
 class Changes(MutableSequence[Change]):
     """The changes that an object obeys, its own and those of its prototypes, by their places.
 
-    One inserts, removes, moves and replaces its own; what is inherited is edited in the list of its owner. `append` puts
-    a change at the end of the global order, `insert(i, …)` right after the one before.
+    One inserts, removes, moves and replaces its own; what is inherited is edited in the list of its owner. `append`
+    puts a change at the end of the global order, `insert(i, …)` right after the one before.
 
     >>> import reactive4d as r4
     >>> ball = r4.Sphere()

@@ -25,7 +25,7 @@ class MapTexture(Mapping):
     >>> import reactive4d as r4
     >>> sheet = r4.Plane()
     >>> _ = sheet.apply(r4.MapTexture("planar", repeat=(2, 2)))
-    >>> sheet.uv.at(0.0).max()
+    >>> float(sheet.uv.at(0.0).max())
     2.0
     """
 

@@ -23,7 +23,7 @@ from reactive4d.model.places import Entry, Place
 from reactive4d.model.prototypes import Names, Prototype, refuse_circle
 from reactive4d.model.registries import KINDS
 from reactive4d.model.runs import Product, Run, run_of
-from reactive4d.model.settings import Flag, Float, Held, Paint, Setting
+from reactive4d.model.settings import Flag, Float, Held, Paint, Setting, declared
 from reactive4d.model.steps import step
 from reactive4d.model.tables import Method, Table
 from reactive4d.model.transforms import Rotate, Scale, Translate
@@ -180,8 +180,9 @@ class Object:
     # -- prototypes ------------------------------------------------------------------------------------------------
 
     def extend(self) -> Self:
-        """Another object that obeys the same changes, also those made later, and has the same settings until it sets
-        its own.
+        """Another object that obeys the same changes, also those made later.
+
+        It has the same settings, too, until it sets its own.
 
         >>> import reactive4d as r4
         >>> rivet = r4.Cylinder(radius=0.1, height=0.1)
@@ -444,7 +445,7 @@ class Object:
         >>> import reactive4d as r4
         >>> tube = r4.Cylinder()
         >>> tube.methods.at(0.0)["intersect"]
-        'cylinder_intersect of Cylinder'
+        'cylinders.intersect of Cylinder'
         """
         from reactive4d.model import methods
 
@@ -552,8 +553,7 @@ class Parameters(MutableMapping[str, Attribute[Any]]):
 
 def _declare(cls: type[Object]) -> None:
     """Collect what a kind declares, after what it inherits."""
-    own = {name: value for name, value in vars(cls).items() if isinstance(value, Setting)}
-    cls.settings = {**cls.settings, **own}
+    cls.settings = {**cls.settings, **declared(cls)}
     if "script" not in vars(cls):
         cls.script = snake(cls.__name__)
     table = vars(cls).get("table")
@@ -703,8 +703,8 @@ def _surface(obj: Object) -> Mesh:
     faces = _surface_part(obj, "faces")
     form = obj.form.now()
     if faces is None:
-        form.need("faces")
-    parts = {"uv": _uv(obj), "weld": _surface_part(obj, "weld")}
+        faces = form.need("faces").now()
+    parts: dict[str, Any] = {"uv": _uv(obj), "weld": _surface_part(obj, "weld")}
     colors = base_of(obj, obj.kind.now()).part("colors")
     if colors is not None and len(faces) == len(colors.now()):
         parts["colors"] = colors.now()
@@ -745,4 +745,4 @@ def look_of(obj: Object) -> dict[str, Any]:
 
 
 KINDS["object"] = Object
-Object.settings = {n: s for n, s in vars(Object).items() if isinstance(s, Setting)}
+Object.settings = declared(Object)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["Names", "Prototype", "refuse_circle"]
 
 
-class Prototype(Settable[Any]):
+class Prototype(Settable["Object | None"]):
     """The prototype of an object: an object, a signal of objects, or None."""
 
     __slots__ = ("object",)
@@ -48,8 +48,9 @@ class Prototype(Settable[Any]):
 
     def adopt(self) -> None:
         """An object makes it a source, a signal a formula."""
-        if isinstance(self.content, Signal):
-            self._be_formula(self.content)
+        content = self.content
+        if isinstance(content, Signal):
+            self._be_formula(content)
             link(self, self.inputs)
         else:
             self._be_source()

@@ -34,8 +34,8 @@ class Scene(MutableMapping[str, Object]):
     >>> import reactive4d as r4
     >>> scene = r4.Scene(ball=r4.Sphere(), table=r4.Box(size=(2, 1, 0.1)))
     >>> frame = scene.at(0.0)
-    >>> list(frame), frame["ball"].matrix[2, 3]
-    (['ball', 'table'], 0.0)
+    >>> list(frame), frame["ball"].matrix[:3, 3]
+    (['ball', 'table'], array([0., 0., 0.]))
     """
 
     def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:

@@ -13,7 +13,7 @@ it extends, and supplies only what differs.
 import inspect
 from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeAlias, overload
 
 from reactive4d.errors import Reactive4dError, hint
 
@@ -39,6 +39,16 @@ METHODS: Mapping[str, str] = {
     "tangent_along": "(3,) its unit tangent, in local space: (u, *, …)",
     "outline": "(n, 3) the points of a path or shape, in local space",
 }
+# Functions by how many arguments they take: so a type checker takes those of a lambda for anything.
+Answer: TypeAlias = (
+    Callable[[], Any]
+    | Callable[[Any], Any]
+    | Callable[[Any, Any], Any]
+    | Callable[[Any, Any, Any], Any]
+    | Callable[[Any, Any, Any, Any], Any]
+    | Callable[[Any, Any, Any, Any, Any], Any]
+    | Callable[[Any, Any, Any, Any, Any, Any], Any]
+)
 GIVEN = frozenset({"origins", "directions", "points", "u"})  # what the asker brings
 
 
@@ -79,17 +89,21 @@ class Table(Mapping[str, Callable[..., Any]]):
     ['volume']
     """
 
+    @overload
+    def __init__(self, *, changes: Mapping[str, Answer] | None = None, **methods: Answer) -> None: ...
+    @overload
     def __init__(
-        self, *, changes: Mapping[str, Callable[..., Any]] | None = None, **methods: Callable[..., Any]
-    ) -> None:
+        self, *, changes: Mapping[str, Callable[..., Any]] | None = None, **methods: Answer | Callable[..., Any]
+    ) -> None: ...
+    def __init__(self, *, changes: Mapping[str, Any] | None = None, **methods: Any) -> None:
         for name, function in methods.items():
             if name not in METHODS:
                 error = Reactive4dError(f"Table: {name!r} is no method")
                 raise hint(error, f"known are {', '.join(METHODS)}")
             if not callable(function):
                 raise Reactive4dError(f"Table: {name} = {function!r} is no function")
-        self._methods = methods
-        self.changes = dict(changes or {})
+        self._methods: dict[str, Callable[..., Any]] = methods
+        self.changes: dict[str, Callable[..., Any]] = dict(changes or {})
 
     @classmethod
     def of(cls, module: ModuleType, **methods: Callable[..., Any]) -> "Table":
@@ -99,8 +113,10 @@ class Table(Mapping[str, Callable[..., Any]]):
         >>> "intersect" in Table.of(spheres)
         True
         """
-        found = {name: getattr(module, name) for name in METHODS if callable(getattr(module, name, None))}
-        return cls(**{**found, **methods})
+        found: dict[str, Any] = {name: getattr(module, name, None) for name in METHODS}
+        every: dict[str, Any] = {name: function for name, function in found.items() if callable(function)}
+        every.update(methods)
+        return cls(**every)
 
     def __getitem__(self, name: str) -> Callable[..., Any]:
         return self._methods[name]
