@@ -20,12 +20,13 @@ def wrong(message: str, at: Place, *, expected: Iterable[str] = ()) -> ScriptErr
 class Option:
     """What is said of keys, behind the last of them: `by linear`, `after cycle`."""
 
-    __slots__ = ("at", "settings", "word")
+    __slots__ = ("at", "notes", "settings", "word")
 
     def __init__(self, token: Token, settings: dict[str, Any]) -> None:
         self.at = token.at
         self.word = token.text
         self.settings = settings
+        self.notes = token.comments.of(token.index)
 
 
 class Draft:
@@ -52,6 +53,8 @@ class Draft:
         if any(name in self.options for name in option.settings):
             raise wrong(f"'{option.word}' is said twice", option.at)
         self.options.update(option.settings)
+        if any(option.notes):
+            self.notes = Notes(self.notes.before, behind(self.notes.behind, *option.notes))
 
     def add(self, point: Point, comma: Token) -> None:
         """Add one more key.

@@ -125,14 +125,11 @@ class _Evaluation:
         items = [self.of(item) for item in x.items]
         if not any(map(is_live, items)) or not all(map(_is_numeric, items)):
             return tuple(items)
-        are_numbers = [isinstance(item, int | float) for item in items]
-        if (
-            len(items) > 1
-            and any(are_numbers)
-            and all(x or is_live(y) for x, y in zip(are_numbers, items, strict=True))
-        ):
-            return Operation(VECTOR, tuple(items))
-        return Operation(LIST, tuple(items))
+        plain = [item for item in items if not is_live(item)]
+        # Where there is a number all are numbers: a vector. Otherwise they may be rows.
+        is_vector = len(items) > 1 and plain and all(isinstance(item, int | float) for item in plain)
+        made: Operation[Any] = Operation(VECTOR if is_vector else LIST, tuple(items))
+        return made
 
     def record(self, x: Record) -> dict[str, Any]:
         """Values by name."""

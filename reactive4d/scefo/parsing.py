@@ -130,8 +130,9 @@ _OPERATORS: Final = frozenset(
 _STARTS: Final = frozenset({"PLUS", "MINUS", "INF", "TRUE", "FALSE", "NONE", "TIME", "PI", "KEYS", "NOT", *_VALUES})
 _OPTIONS: Final = frozenset({"BY", "EASE", "BEFORE", "AFTER", "AS"})
 _NAMED: Final = {
-    "NAME": "a name", "NUMBER": "a number", "STRING": "a string", "_LPAR": "'('", "_RPAR": "')'", "LBRACE": "'{'",
-    "_RBRACE": "'}'", "_LBRACKET": "'['", "_RBRACKET": "']'", "_COMMA": "','", "_SEMI": "';'", "_COLON": "':'",
+    "_COMMA": "','", "_SEMI": "';'", "NAME": "a name", "NUMBER": "a number", "STRING": "a string",
+    "_LPAR": "'('", "_RPAR": "')'", "LBRACE": "'{'", "_RBRACE": "'}'", "_LBRACKET": "'['", "_RBRACKET": "']'",
+    "_COLON": "':'",
     "_DOT": "'.'", "_EQUALS": "'='", "LESS": "'<'", "GREATER": "'>'", "LESS_EQUAL": "'<='", "GREATER_EQUAL": "'>='",
     "EQUAL": "'=='", "UNEQUAL": "'!='", "PLUS": "'+'", "MINUS": "'-'", "STAR": "'*'", "SLASH": "'/'",
     "PERCENT": "'%'", "CARET": "'^'", "ELLIPSIS": "'...'", END: "the end",
@@ -187,7 +188,7 @@ def _words(accepted: set[str]) -> tuple[str, ...]:
             words.append("a key <time, value>")
             left.remove("LESS")
     elif left - _OPERATORS:
-        left -= _OPERATORS - {"GREATER"} if "GREATER" in left and "LESS" not in left else _OPERATORS
+        left -= _OPERATORS - ({"GREATER"} if "LESS" not in left else set())
     order = [*_NAMED]
     words += [_NAMED.get(kind, f"'{kind.lower()}'") for kind in sorted(left, key=lambda x: _rank(x, order))]
     return tuple(words)

@@ -48,6 +48,12 @@ _OPERATORS: Final = {
     "<": "LESS", ">": "GREATER", "<=": "LESS_EQUAL", ">=": "GREATER_EQUAL", "==": "EQUAL", "!=": "UNEQUAL",
     "+": "PLUS", "-": "MINUS", "*": "STAR", "/": "SLASH", "%": "PERCENT", "^": "CARET", "...": "ELLIPSIS",
 }  # fmt: skip
+# What waits for what is behind it: a parser would remember each of them.
+_SIGNS: Final = frozenset({"PLUS", "MINUS", "NOT", "CARET"})
+_ENDS: Final = frozenset(
+    {"NAME", "NUMBER", "STRING", "INF", "TRUE", "FALSE", "NONE", "TIME", "PI", "_RPAR", "_RBRACE", "_RBRACKET"}
+)
+_LOOSE: Final = frozenset({"PLUS", "MINUS", "STAR", "SLASH", "PERCENT", "AND", "OR", "_COMMA", "_SEMI", "_EQUALS"})
 _OPENING: Final = frozenset("({[")
 _CLOSING: Final = frozenset(")}]")
 _TOKEN: Final = re.compile(
@@ -78,7 +84,8 @@ def tokens(text: str, comments: Comments) -> Iterator[Token]:
     last_line = 0  # on which the last token ends, or a comment behind it
     newlines = 0  # since the last token or comment
     is_first = is_between = True  # whether a statement may begin; whether one has ended
-    is_separated = False  # whether the last token is a comma
+    last = "_SEMI"  # the type of the last token
+    tight = 0  # how many signs and powers wait for one another
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup
         if kind == "blank":
@@ -95,7 +102,7 @@ def tokens(text: str, comments: Comments) -> Iterator[Token]:
         newlines = 0
         if kind == "comment":
             is_tail = line == last_line
-            comments.add(piece, index=index - 1, is_tail=is_tail, is_separated=is_separated)
+            comments.add(piece, index=index - 1, is_tail=is_tail, is_separated=last == "_COMMA")
             if "\n" in piece:
                 line += piece.count("\n")
                 begin = match.start() + piece.rindex("\n") + 1
@@ -126,9 +133,15 @@ def tokens(text: str, comments: Comments) -> Iterator[Token]:
         yield token
         index += 1
         last_line = line
-        is_separated = token.type == "_COMMA"
-        is_between = token.type == "_SEMI"
-        is_first = is_between or token.type == "HIDDEN"
+        before, last = last, token.type
+        if last in _SIGNS and (last == "CARET" or before not in _ENDS):
+            tight += 1
+            if tight > MOST_NESTED:
+                raise _error(f"more than {MOST_NESTED} signs and powers in a row", place)
+        elif last in _LOOSE:
+            tight = 0
+        is_between = last == "_SEMI"
+        is_first = is_between or last == "HIDDEN"
     end = Token(END, "", "", (line, len(text) - begin + 1), comments)
     end.index = index
     yield end
