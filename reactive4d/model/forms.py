@@ -1,14 +1,16 @@
-"""Forms: what an object is made of before its last transforms act. A kind's own form, and each that a change makes of it.
+"""Forms: what an object is made of before its last transforms act: a kind's own form, and what a change makes of one.
 
-A form answers points, faces, uv and weld as signals, each with a life of its own. Forms are shared: extensions that have
-the same prefix of changes have the same forms, and so one set of points.
+A form answers points, faces, uv and weld as signals, each with a life of its own. Forms are shared: extensions that
+have the same prefix of changes have the same forms, and so one set of points.
 """
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reactive4d.engine import Formula
 from reactive4d.errors import EvaluationError, ShapeError, hint
@@ -16,7 +18,7 @@ from reactive4d.geometry import transforms
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.places import Entry, Place
 from reactive4d.model.runs import Product
-from reactive4d.model.steps import step
+from reactive4d.model.steps import Step, step
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 
@@ -26,7 +28,8 @@ if TYPE_CHECKING:
 __all__ = ["Base", "Deformed", "Form", "Reshaped", "Stage", "deformed", "reshaped"]
 
 PARTS = ("faces", "points", "uv", "weld", "lines")
-ORIGIN = np.zeros(3)
+Array = NDArray[np.float64]
+ORIGIN: Array = np.zeros(3)
 ORIGIN.flags.writeable = False
 
 
@@ -154,9 +157,7 @@ class Base(Form):
         if method.takes_object:
             function = method.function
             if method.brought:
-                made: Signal[Any] = Function(
-                    lambda: lambda *brought: function(owner, *brought), name=f"{self.name}.{name}"
-                )
+                made: Signal[Any] = Function(lambda: partial(function, owner), name=f"{self.name}.{name}")
             else:
                 made = Function(lambda: as_part(name, function(owner), self.kind), name=f"{self.name}.{name}")
         else:
@@ -266,8 +267,16 @@ class Made(Form):
 def carried(form: Form, name: str, matrix: Signal[Any], origin: Signal[Any] | None) -> Signal[Any]:
     """The origin carried on by a matrix."""
     if origin is None:
-        return Stage(form, name, lambda m: m[:3, 3].copy(), matrix)
-    return Stage(form, name, lambda m, p: m[:3, :3] @ p + m[:3, 3], matrix, origin)
+        return Stage(form, name, _offset, matrix)
+    return Stage(form, name, _moved, matrix, origin)
+
+
+def _offset(matrix: Array) -> Array:
+    return matrix[:3, 3].copy()
+
+
+def _moved(matrix: Array, point: Array) -> Array:
+    return matrix[:3, :3] @ point + matrix[:3, 3]
 
 
 class Deformed(Made):
@@ -285,49 +294,43 @@ class Deformed(Made):
         if change.is_stepped:
             return self._stepped(name, act, position)
         if name == "origin":
-            return self._mapped_origin(act, wanted, position)
+            return self._mapped_origin(act)
         kind = type(change)
-        inputs = [self.placed(), change.values]
-        if position is None:
-            return Stage(
-                self, name, lambda p, v: as_part("points", act(v, {"points": p, "position": ORIGIN}), kind), *inputs
-            )
-        return Stage(
-            self, name, lambda p, v, o: as_part("points", act(v, {"points": p, "position": o}), kind), *inputs, position
-        )
 
-    def _mapped_origin(self, act: Any, wanted: Any, position: Any) -> Signal[Any] | None:
+        def points(before: Any, values: Any, origin: Array = ORIGIN) -> Any:
+            return as_part("points", act(values, {"points": before, "position": origin}), kind)
+
+        return Stage(self, name, points, self.placed(), change.values, *([] if position is None else [position]))
+
+    def _mapped_origin(self, act: Step) -> Signal[Any] | None:
         """The origin is one more point: the function of a user's deformation is pointwise."""
         before = self.position()
-        at = ORIGIN.reshape(1, 3)
-        if before is None:
-            return Stage(
-                self, "origin", lambda v: _first(act(v, {"points": at, "position": ORIGIN})), self.entry.change.values
-            )
-        return Stage(
-            self,
-            "origin",
-            lambda v, o: _first(act(v, {"points": o.reshape(1, 3), "position": o})),
-            self.entry.change.values,
-            before,
-        )
 
-    def _stepped(self, name: str, act: Any, position: Signal[Any] | None) -> Signal[Any] | None:
+        def mapped(values: Any, origin: Array = ORIGIN) -> Any:
+            return _first(act(values, {"points": origin.reshape(1, 3), "position": origin}))
+
+        return Stage(self, "origin", mapped, self.entry.change.values, *([] if before is None else [before]))
+
+    def _stepped(self, name: str, act: Step, position: Signal[Any] | None) -> Signal[Any] | None:
         values = self.entry.change.values
         before = self.position()
         center = [] if position is None else [position]
 
-        def made(v: Any, o: Any) -> Any:
-            return act(v, {"position": ORIGIN if not o else o[0]})
+        def measured(points: Any, values: Any, origin: Array = ORIGIN) -> Any:
+            return act(values, {"position": origin}).extent(points)
+
+        def points(before: Any, values: Any, extent: Any, origin: Array = ORIGIN) -> Any:
+            return act(values, {"position": origin}).map(before, extent)
+
+        def mapped(values: Any, extent: Any, origin: Array = ORIGIN) -> Any:
+            return _first(act(values, {"position": origin}).map(origin.reshape(1, 3), extent))
 
         if name == "extent":
-            return Stage(self, name, lambda p, v, *o: made(v, o).extent(p), self.placed(), values, *center)
+            return Stage(self, name, measured, self.placed(), values, *center)
         extent = self.need("extent")
         if name == "points":
-            return Stage(self, name, lambda p, v, e, *o: made(v, o).map(p, e), self.placed(), values, extent, *center)
-        if before is None:
-            return Stage(self, name, lambda v, e: _first(made(v, ()).map(ORIGIN.reshape(1, 3), e)), values, extent)
-        return Stage(self, name, lambda v, e, o: _first(made(v, (o,)).map(o.reshape(1, 3), e)), values, extent, before)
+            return Stage(self, name, points, self.placed(), values, extent, *center)
+        return Stage(self, name, mapped, values, extent, *([] if before is None else [before]))
 
 
 def _first(points: Any) -> Any:
@@ -350,18 +353,17 @@ class Reshaped(Made):
             return Stage(self, name, _part_of(name), surface) if name in PARTS else None
         change = self.entry.change
         act, wanted = step(type(change))
-        given = [n for n in sorted(wanted)]
+        given = sorted(wanted)
         inputs: list[Signal[Any]] = [change.values]
         for n in given:
             source = self.placed() if n == "points" else self.position() if n == "position" else self.below.part(n)
             inputs.append(source if source is not None else _constant(ORIGIN if n == "position" else None))
         kind = type(change)
-        return Stage(
-            self,
-            "surface",
-            lambda v, *more: as_part("surface", act(v, dict(zip(given, more, strict=True))), kind),
-            *inputs,
-        )
+
+        def whole(values: Any, *parts: Any) -> Any:
+            return as_part("surface", act(values, dict(zip(given, parts, strict=True))), kind)
+
+        return Stage(self, "surface", whole, *inputs)
 
 
 def _constant(value: Any) -> Signal[Any]:

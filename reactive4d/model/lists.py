@@ -79,10 +79,12 @@ class Changes(MutableSequence[Change]):
     def __getitem__(self, index: int) -> Any: ...
     @overload
     def __getitem__(self, index: slice) -> list[Any]: ...
-    def __getitem__(self, index: Any) -> Any:
+    def __getitem__(self, index: int | slice) -> Any:
         """A change, or a list of some."""
-        found = self.entries[index]
-        return [e.change for e in found] if isinstance(found, tuple) else found.change
+        entries = self.entries
+        if isinstance(index, slice):
+            return [entry.change for entry in entries[index]]
+        return entries[index].change
 
     def index(self, value: Any, start: int = 0, stop: int | None = None) -> int:
         """Where a change stands.
@@ -118,7 +120,7 @@ class Changes(MutableSequence[Change]):
             for value in values:
                 self.append(value)
 
-    def __setitem__(self, index: Any, value: Any) -> None:
+    def __setitem__(self, index: int | slice, value: Any) -> None:
         """Replace a change by another one at the same place."""
         if isinstance(index, slice):
             raise TypeError(f"{self._object.name}.changes: replace changes one by one")
@@ -128,10 +130,10 @@ class Changes(MutableSequence[Change]):
             self._take(entry)
             self._put(value, entry.place)
 
-    def __delitem__(self, index: Any) -> None:
+    def __delitem__(self, index: int | slice) -> None:
         with engine.transaction():
-            found = self.entries[index]
-            for entry in found if isinstance(found, tuple) else (found,):
+            entries = self.entries
+            for entry in entries[index] if isinstance(index, slice) else (entries[index],):
                 self._take(self._owned(entry))
 
     def remove(self, value: Change) -> None:
