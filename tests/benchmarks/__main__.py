@@ -14,6 +14,7 @@ from .graph_speed import graph_speed
 from .growth import growth
 from .instructions import instructions
 from .memory import memory
+from .modelling import modelling
 from .reports import Section, conditions, data, markdown, text, verdicts
 from .runs import Run
 from .sampling import sampling
@@ -29,6 +30,7 @@ BENCHMARKS = {
     "memory": memory,
     "sampling": sampling,
     "deforming": deforming,
+    "modelling": modelling,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 
