@@ -92,7 +92,7 @@ class _Evaluation:
             return _MAKERS[type(x)](self, x)
         except ScriptError:
             raise
-        except (Reactive4dError, TypeError, ValueError, ArithmeticError, LookupError) as error:
+        except (Reactive4dError, TypeError, ValueError, ArithmeticError, LookupError, AttributeError) as error:
             line, column = x.at if x.at.line else (None, None)
             text = str(error) if isinstance(error, Reactive4dError) or not isinstance(error, KeyError) else repr(error)
             wrong = ScriptError(text or type(error).__name__, line=line, column=column)

@@ -130,6 +130,10 @@ def _of_operator(operator: Operator) -> Callable[..., Any]:
     return lambda *arguments: apply_operator(operator, arguments)
 
 
+def _of_words(operator: Operator) -> Callable[..., Any]:
+    return lambda *arguments: apply_operator(operator, arguments, takes_words=True)
+
+
 def _extreme(function: Any) -> Callable[..., Any]:
     operator = kernels.ufunc(function)
 
@@ -241,9 +245,9 @@ _TABLE: Final = (
     ScriptFunction("cross", 2, 2, _of_operator(_CROSS), "the vector product"),
     ScriptFunction("length", 1, 1, _of_operator(_LENGTH), "of a vector"),
     ScriptFunction("normalize", 1, 1, _of_operator(_NORMALIZE), "the vector of length 1"),
-    ScriptFunction("color", 1, 4, _of_operator(_COLOR), 'color("crimson"), color(red, green, blue, alpha)'),
-    ScriptFunction("rotation", 2, 2, _of_operator(_ROTATION), "about an axis by degrees"),
-    ScriptFunction("quaternion", 4, 4, _of_operator(_QUATERNION), "a rotation, w first"),
+    ScriptFunction("color", 1, 4, _of_words(_COLOR), 'color("crimson"), color(red, green, blue, alpha)'),
+    ScriptFunction("rotation", 2, 2, _of_words(_ROTATION), "about an axis by degrees"),
+    ScriptFunction("quaternion", 4, 4, _of_words(_QUATERNION), "a rotation, w first"),
     ScriptFunction("array", 2, 2, _array, 'array("float32", {1, 2})'),
     ScriptFunction("variable", 1, 1, _variable, "a signal of its own, set to this"),
     ScriptFunction("delay", 2, 2, _warp(warps.delay), "later by seconds"),

@@ -96,23 +96,34 @@ def apply(name: str, *operands: Any) -> Any:
     (6, 8.0)
     """
     made = [operand(x) for x in operands]
+    if name != "equal":
+        _refuse_words(name, made)
     bounded = _BOUNDED.get(name)
     if bounded is not None and not any(map(_is_floating, made)):
         return operated(bounded, made) if any(map(is_live, made)) else freeze(bounded.one(*made))
     if any(map(is_live, made)):
         return operate(name, tuple(made))
-    for x in made:
-        if isinstance(x, str | tuple) and name != "equal":
-            raise ShapeError(f"{name}: expected numbers, got {kernels.shown(x)}")
     return freeze(OPERATORS[name].one(*made))
 
 
-def apply_operator(operator: Operator, arguments: Sequence[Any]) -> Any:
-    """An operator applied to values and signals."""
+def apply_operator(operator: Operator, arguments: Sequence[Any], *, takes_words: bool = False) -> Any:
+    """An operator applied to values and signals; among them may be strings if it takes words.
+
+    Raises:
+        ShapeError: a string, a record or nothing, where it takes numbers.
+    """
     made = [operand(x) for x in arguments]
+    if not takes_words:
+        _refuse_words(operator.name, made)
     if any(map(is_live, made)):
         return operated(operator, made)
     return freeze(operator.one(*made))
+
+
+def _refuse_words(name: str, values: Sequence[Any]) -> None:
+    for x in values:
+        if x is None or isinstance(x, str | dict):
+            raise ShapeError(f"{name}: expected numbers, got {kernels.shown(x)}")
 
 
 WRITTEN_BETWEEN: Final[Mapping[Operator, str]] = MappingProxyType(

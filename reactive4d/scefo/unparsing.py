@@ -172,7 +172,7 @@ class _Unparsing:
 
     def of(self, x: Any) -> Expression:
         """The expression of a signal or a value."""
-        todo = list(_signals(x))
+        todo = [*_signals(x)][::-1]
         while todo:
             y = todo[-1]
             if id(y) in self.done:
@@ -181,7 +181,7 @@ class _Unparsing:
             path = None if y is self.root else self.name_of(y)
             missing = [part for part in _parts(y) if id(part) not in self.done] if path is None else []
             if missing:
-                todo.extend(missing)
+                todo.extend(reversed(missing))
                 continue
             self.done[id(y)] = path if path is not None else self.written(y)
             self.sizes[id(y)] = 1 if path is not None or isinstance(self.done[id(y)], Path) else self.size(y)
