@@ -41,6 +41,8 @@ def express(engine: "Engine", cell: "Cell", t: float, claim: Claim | None, me: M
     if segment.clean or not start <= t < stop or (segment.older and engine.revivals > segment.retired):
         return False
     kind = cell.kind
+    if kind == SOURCE:
+        return False  # it was computed once, and was set since: what is remembered of it is no longer asked
     reads = segment.reads
     if len(reads) > FEW or type(reads) is not tuple or reads is not (cell.inputs if kind == FORMULA else cell.linked):
         return False

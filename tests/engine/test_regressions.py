@@ -23,6 +23,7 @@ from models import (
 )
 
 from reactive4d.engine import Affine, Axis, Cell, Computed, Fixed, Formula, Source, moment, narrow
+from reactive4d.engine.kinds import COMPUTED, SOURCE
 
 
 def agree(cell: Cell, *times: float, **parameters: Any) -> None:
@@ -312,3 +313,28 @@ def test_an_update_under_way_reads_nothing_of_an_open_transaction(cached: Case, 
         b.set_content(2)
     assert thread.result() == (2, 2)
     assert cached.ask(view) == (2, 2)
+
+
+def test_what_was_computed_and_is_set_now_says_what_was_set(cached: Case) -> None:
+    """A settable signal that was answered by its rule, then set to a constant: its rule is not asked again."""
+
+    class Settable(Source):
+        """Computed while its content is None."""
+
+        __slots__ = ("kind",)
+
+        def __init__(self) -> None:
+            self.kind = COMPUTED
+            super().__init__(None, name="x", engine=cached.engine)
+
+        def adopt(self) -> None:
+            self.kind = COMPUTED if self.content is None else SOURCE
+
+        def rule(self) -> float:
+            return below.now()
+
+    below = cached.source(1.0)
+    x = Settable()
+    assert cached.ask(x) == 1.0
+    x.set_content(2.0)
+    assert [cached.ask(x, t) for t in (0.0, 1.0)] == [2.0, 2.0]
