@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reactive4d.engine import engine
+from reactive4d.engine.frames import LOCK
 from reactive4d.errors import EvaluationError, Reactive4dError, ShapeError, hint, unknown
 from reactive4d.geometry import meshes, transforms
 from reactive4d.geometry.meshes import Mesh
@@ -88,6 +89,7 @@ class Object:
         self._own: dict[Lane, Own] = {}
         self._bases: dict[type, Base] = {}
         self._prototype: Prototype | None = None
+        self._has_prototype = False
         self._names: Names | None = None
         self._raw: dict[str, Any] = {}
         known = type(self).settings
@@ -163,17 +165,32 @@ class Object:
 
     def _note_names(self) -> None:
         if self._names is not None:
-            self._names.set_content(self._set_names())
+            self._names.set_content(self.shaping_names())
+
+    @property
+    def names(self) -> Names:
+        """The names of the settings that it has set itself and that say what it is made of, as a source."""
+        found = self._names
+        if found is None:
+            with LOCK:
+                found = self._names
+                if found is None:
+                    found = self._names = Names(self)
+        return found
+
+    def shaping_names(self) -> tuple[str, ...]:
+        """The names of the settings that it has set itself, but for those that have no say in what it is made of."""
+        return tuple([name for name in self._set_names() if name not in _UNSHAPED])
 
     def _set_names(self) -> tuple[str, ...]:
-        made = self._attributes
+        made = dict(self._attributes)  # others may be made meanwhile
         names = {name for name in self._raw if name not in made} | {n for n, a in made.items() if a.is_set}
         return tuple(sorted(names))
 
     def parameter(self, kind: "type[Object]", name: str) -> Signal[Any]:
         """A setting as a kind understands it, which may not be the object's own kind."""
         wanted = kind.settings[name]
-        if type(self).settings.get(name) is wanted:
+        if type(self).settings.get(name) is wanted or name in _UNSHAPED:
             return self.attribute(name)
         return self.channel(f"{name}@{kind.__name__}@{id(kind)}", lambda obj: _understood(obj, wanted))
 
@@ -199,7 +216,7 @@ class Object:
     @property
     def has_prototype(self) -> bool:
         """Whether a prototype was ever given."""
-        return self._names is not None
+        return self._has_prototype
 
     @property
     def prototype(self) -> Prototype:
@@ -216,12 +233,11 @@ class Object:
             raise ShapeError(f"{self.name}.prototype: expected an object or a signal of objects, got {value!r}")
         refuse_circle(self, value)
         with engine.transaction():
+            self._has_prototype = True
             self.prototype.set_content(value)
             for attribute in list(self._attributes.values()):
                 if not attribute.is_set:
                     attribute.set_content(INHERITED)
-            if self._names is None:
-                self._names = Names(self, self._set_names())
 
     @property
     def prototype_content(self) -> Any:
@@ -596,15 +612,12 @@ def entries_before(obj: Object, lane: Lane, place: Place) -> Items:
 
 
 def _understood(obj: Object, wanted: Setting[Any]) -> Any:
-    while True:
-        attribute = obj.attribute(wanted.name)
-        content = attribute.note()
-        if content is not DEFAULT and content is not INHERITED:
-            return wanted.check(attribute.now())
+    while wanted.name not in obj.names.now():
         prototype = obj.prototype.now()
         if prototype is None:
             return wanted.default_value
         obj = prototype
+    return wanted.check(obj.attribute(wanted.name).now())
 
 
 def _kind(obj: Object) -> type[Object]:
@@ -618,11 +631,8 @@ def _kind(obj: Object) -> type[Object]:
 def base_of(obj: Object, kind: type[Object]) -> Base:
     """The form that a kind makes of the settings of an object, or of its prototype where they are the same."""
     prototype = obj.prototype.now()
-    if prototype is not None:
-        names = obj._names  # pyright: ignore[reportPrivateUsage]
-        own = names.now() if names is not None else ()
-        if not any(name in kind.settings and name not in _UNSHAPED for name in own):
-            return prototype.channel(f"base@{id(kind)}", lambda o: base_of(o, kind)).now()
+    if prototype is not None and not any(name in kind.settings for name in obj.names.now()):
+        return prototype.channel(f"base@{id(kind)}", lambda o: base_of(o, kind)).now()
     bases = obj._bases  # pyright: ignore[reportPrivateUsage]
     base = bases.get(kind)
     return base if base is not None else bases.setdefault(kind, Base(obj, kind))
@@ -713,8 +723,7 @@ def _surface(obj: Object) -> Mesh:
 
 def _mesh(obj: Object) -> Mesh:
     surface = obj.surface.now()
-    matrix = obj.matrix.now()
-    return surface if matrix is _IDENTITY else surface.transformed(matrix)
+    return surface if obj.run.now() is None else surface.transformed(obj.matrix.now())
 
 
 def _bounds(obj: Object) -> Array:

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Names", "Prototype", "refuse_circle"]
 
+INF = float("inf")
+
 
 class Prototype(Settable["Object | None"]):
     """The prototype of an object: an object, a signal of objects, or None."""
@@ -64,13 +66,19 @@ class Prototype(Settable["Object | None"]):
 
 
 class Names(Signal[tuple[str, ...]], Source):
-    """The names of the settings that an object with a prototype has set itself."""
+    """The names of the settings that an object has set itself and that say what it is made of.
+
+    It is made when somebody first wants to know; the lock is held.
+    """
 
     __slots__ = ("object",)
 
-    def __init__(self, obj: "Object", content: tuple[str, ...]) -> None:
+    def __init__(self, obj: "Object") -> None:
         self.object = obj
-        super().__init__(content, name="")
+        super().__init__(obj.shaping_names(), name="")
+        if self.engine.owner is not None:
+            # What the open transaction has set before may be undone: then others are set, and whoever asked must hear.
+            self.engine.undo.append((self, None, self.engine.stamp(), [(-INF, INF)]))
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -80,6 +88,14 @@ class Names(Signal[tuple[str, ...]], Source):
     @name.setter
     def name(self, value: str) -> None:
         pass
+
+    def sample(self, t: float) -> tuple[float, float, Any]:
+        """What is set by now: what was noted may have been undone."""
+        return -INF, INF, self.object.shaping_names()
+
+    def difference(self, old: tuple[str, ...] | None, new: tuple[str, ...]) -> list[tuple[float, float]]:
+        """Everywhere, unless the same are set."""
+        return [] if old == new else [(-INF, INF)]
 
 
 def refuse_circle(obj: "Object", prototype: Any) -> None:
