@@ -192,8 +192,11 @@ def from_mesh(mesh: Mesh) -> Solid:
     >>> round(volume(from_mesh(mesh(tetrahedron))), 6)
     0.166667
     """
-    has = mesh.attributes.get
-    return solid(mesh.points, mesh.faces, has("weld"), uv=has("uv"), normals=has("normals"), groups=has("source"))
+    has, count = mesh.attributes.get, len(mesh.points)
+    normals = has("normals")
+    if normals is not None and len(normals) != count:  # those of faces are not carried
+        normals = None
+    return solid(mesh.points, mesh.faces, has("weld"), uv=has("uv"), normals=normals, groups=has("source"))
 
 
 def convex_hull(points: ArrayLike | Sequence[Solid]) -> Solid:
@@ -412,13 +415,14 @@ def _owners(solid: Solid, keys: list[int], runs: list[int], body: Any) -> list[i
     known: dict[int, list[int]] = {}
     for number, one in enumerate(solid.sources):
         known.setdefault(one.key, []).append(number)
+    copied = {key: np.stack([solid.sources[n].matrix for n in twins]) for key, twins in known.items() if len(twins) > 1}
+    matrices = np.array(body.run_transform, np.float64).swapaxes(1, 2) if copied else np.zeros((0, 3, 4))
     owners: list[int] = []
     for i, key in enumerate(keys):
-        candidates = known.get(key, [0])
-        if len(candidates) > 1 and runs[i + 1] > runs[i]:
-            matrix = np.array(body.run_transform[i], np.float64).T
-            candidates = sorted(candidates, key=lambda n: float(np.abs(solid.sources[n].matrix - matrix).max()))
-        owners.append(candidates[0])
+        nearest = 0
+        if key in copied and runs[i + 1] > runs[i]:
+            nearest = int(np.abs(copied[key] - matrices[i]).max(axis=(1, 2)).argmin())
+        owners.append(known[key][nearest])
     return owners
 
 

@@ -1,6 +1,8 @@
 """Solids: what booleans must keep, and where each face came from."""
 
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -161,6 +163,15 @@ def test_copies_of_one_surface_are_told_apart_by_their_place():
     centers = surface.points[surface.faces].mean(axis=1)
     nearest = np.argmin(np.linalg.norm(centers[:, None] - np.array(spots, float), axis=2), axis=1)
     np.testing.assert_array_equal(surface.attributes["operand"], nearest)
+
+
+def test_a_hundred_copies_are_told_apart():
+    """Also where one surface was imported and all of its copies are in one union."""
+    spots = [(3.0 * i, 3.0 * j, 0.0) for i in range(10) for j in range(10)]
+    surface = mesh(union([moved(BALL, affine(offset=spot)) for spot in spots]))
+    centers = surface.points[surface.faces].mean(axis=1)
+    places = np.array(spots)[surface.attributes["operand"]]
+    assert np.linalg.norm(centers - places, axis=1).max() < 1.0
 
 
 def test_nested_trees_count_operands_at_the_top_and_sources_at_the_bottom():
@@ -376,6 +387,23 @@ def test_booleans_refuse_what_is_no_solid_and_intersections_of_nothing():
     for combine in (intersection, difference):
         with pytest.raises(ShapeError, match="at least one operand"):
             combine([])
+
+
+def test_normals_of_faces_are_not_carried():
+    """A mesh with one normal for each face is a solid all the same."""
+    surface = mesh(CUBE)
+    flat = surface.with_attributes(normals=np.zeros((len(surface.faces), 3), np.float32))
+    assert volume(solids.from_mesh(flat)) == pytest.approx(1)
+
+
+def test_importing_the_kernels_loads_no_engine():
+    """manifold3d, trimesh, SciPy, VTK and matplotlib are loaded by the functions that need them."""
+    names = "blobs curves ducts files grids outlines paths patches polygons prisms quilts revolutions solids texts"
+    code = f"import sys; [__import__('reactive4d.geometry.' + name) for name in {names.split()!r}]; "
+    code += (
+        "print([one for one in ('manifold3d', 'trimesh', 'scipy', 'vtkmodules', 'matplotlib') if one in sys.modules])"
+    )
+    assert subprocess.check_output([sys.executable, "-c", code], text=True).strip() == "[]"
 
 
 def test_a_solid_is_never_changed():
