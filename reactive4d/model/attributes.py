@@ -1,7 +1,9 @@
 """Attributes: the settings of an object and the values of a change, as signals that one sets."""
 
+from collections.abc import Callable
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any, TypeVar
+from weakref import WeakSet
 
 from reactive4d.engine import Formula
 from reactive4d.engine.links import link
@@ -15,9 +17,10 @@ if TYPE_CHECKING:
     from reactive4d.model.changes import Change
     from reactive4d.model.objects import Object
 
-__all__ = ["DEFAULT", "INHERITED", "Attribute", "Part", "Values"]
+__all__ = ["DEFAULT", "INHERITED", "Attribute", "Merge", "Part", "Values"]
 
 T = TypeVar("T")
+Merge = Callable[[tuple[Any, ...]], tuple[Any, ...]]
 
 
 class _Unset:
@@ -152,11 +155,20 @@ def _refuse_itself(target: Signal[Any], content: Signal[Any]) -> None:
 class Values(Settable[Any]):
     """All values of one change, as one tuple: what its attributes are at a time."""
 
-    __slots__ = ("_merge", "change")
+    __slots__ = ("_constants", "_followers", "change", "merge")
+
+    merge: Merge | None  # of what the signals say, the constants between them; None while all are constants
 
     def __init__(self, change: "Change", content: tuple[Any, ...]) -> None:
         self.change = change
+        self._followers: WeakSet[Any] | None = None
         super().__init__(content, name="")
+
+    def follow(self, run: Any) -> None:
+        """Let a run that reads what the values are made of know when they are made of something else."""
+        if self._followers is None:
+            self._followers = WeakSet()
+        self._followers.add(run)
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -191,10 +203,18 @@ class Values(Settable[Any]):
         contents: Any = self.content
         found = [setting.signal(x) for setting, x in zip(settings, contents, strict=True)]
         signals = [x for x in found if x is not None]
-        if not signals:
-            self._merge = None
+        if signals:
+            self._be_live(found)
+        else:
+            self.merge = None
+            self._constants = tuple([s.constant(x) for s, x in zip(settings, contents, strict=True)])
             self._be_source()
-            return
+        for run in list(self._followers or ()):
+            run.rewire()
+
+    def _be_live(self, found: list[Signal[Any] | None]) -> None:
+        settings = self.change.settings
+        contents: Any = self.content
         fixed = [
             setting.constant(x) if live is None else None
             for setting, x, live in zip(settings, contents, found, strict=True)
@@ -207,17 +227,17 @@ class Values(Settable[Any]):
                 merged[i] = check(value)
             return tuple(merged)
 
-        self._merge = merge
-        self._be_formula(*signals)
+        self.merge = merge
+        self._be_formula(*[x for x in found if x is not None])
         link(self, self.inputs)
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """The constants, as kernels take them."""
-        return -INF, INF, tuple([s.constant(x) for s, x in zip(self.change.settings, self.content, strict=True)])
+        return -INF, INF, self._constants
 
     def function(self, *values: Any) -> Any:
         """The constants, and what the signals say."""
-        merge = self._merge
+        merge = self.merge
         assert merge is not None
         return merge(values[1:])
 

@@ -372,7 +372,8 @@ def _constant(value: Any) -> Signal[Any]:
     return Variable(value)
 
 
-_forms: WeakValueDictionary[tuple[Any, ...], Made] = WeakValueDictionary()
+# By the identities of what they are made of: a form keeps all of it alive, and nobody here keeps a form alive.
+_forms: WeakValueDictionary[tuple[int, ...], Made] = WeakValueDictionary()
 
 
 def deformed(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
@@ -386,6 +387,6 @@ def reshaped(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
 
 
 def _interned(kind: type[Made], below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
-    key = (kind, below, run, entry)
+    key = (id(kind), id(below), id(run), id(entry))
     form = _forms.get(key)
     return form if form is not None else _forms.setdefault(key, kind(below, run, entry))

@@ -6,7 +6,10 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from reactive4d.engine import Formula
+from reactive4d.engine.frames import LOCK
+from reactive4d.engine.links import link
 from reactive4d.errors import ShapeError
+from reactive4d.model.attributes import Merge
 from reactive4d.model.places import Entry
 from reactive4d.model.steps import Step, step
 from reactive4d.model.tables import Table
@@ -30,10 +33,11 @@ class Run(Signal[Array], Formula):
     """The matrix of some transforms after those of another run, all by the same owner.
 
     Its inputs are the matrix below, if there is one; where the object's origin is before the first transform, if it is
-    not the origin and somebody wants to know; and the values of every change.
+    not the origin and somebody wants to know; and of every change what its values are made of, so that nothing is
+    remembered in between.
     """
 
-    __slots__ = ("below", "entries", "origin", "product", "steps", "takes_origin")
+    __slots__ = ("below", "entries", "origin", "plan", "product", "steps", "takes_origin")
 
     def __init__(
         self, below: Signal[Array] | None, entries: tuple[Entry, ...], origin: Signal[Array] | None, kind: Table | None
@@ -48,10 +52,30 @@ class Run(Signal[Array], Formula):
             (s, bool(wanted), type(e.change)) for (s, wanted), e in zip(made, entries, strict=True)
         ]
         self.takes_origin = origin is not None and any("position" in wanted for _, wanted in made)
-        inputs: list[Any] = [] if below is None else [below]
+        self.plan: tuple[tuple[int, Merge | None], ...] = ()
+        super().__init__(self._product, name="", engine=entries[0].change.values.engine)
+        values = tuple([entry.change.values for entry in entries])
+        with LOCK:
+            link(self, values)  # what is assigned to a change concerns it, though it reads past the change
+            for one in values:
+                one.follow(self)
+            self.rewire()
+
+    def rewire(self) -> None:
+        """Read what the changes are made of by now; the lock is held."""
+        inputs: list[Any] = [] if self.below is None else [self.below]
         if self.takes_origin:
-            inputs.append(origin)
-        super().__init__(self._product, *inputs, *[e.change.values for e in entries], name="")
+            inputs.append(self.origin)
+        plan: list[tuple[int, Merge | None]] = []
+        for entry in self.entries:
+            values = entry.change.values
+            parts = values.inputs or (values,)
+            inputs.extend(parts)
+            plan.append((len(parts), values.merge))
+        self.plan = tuple(plan)
+        self.inputs = tuple(inputs)
+        if self.segments or self.shelves is not None:
+            link(self, self.inputs)
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -66,12 +90,14 @@ class Run(Signal[Array], Formula):
     def _product(self, *values: Any) -> Array:
         matrix: Any = None
         origin: Any = None
-        first = 0
+        i = 0
         if self.below is not None:
-            matrix, first = values[0], 1
+            matrix, i = values[0], 1
         if self.takes_origin:
-            origin, first = values[first], first + 1
-        for (act, wants, change), value in zip(self.steps, values[first:], strict=True):
+            origin, i = values[i], i + 1
+        for (act, wants, change), (count, merge) in zip(self.steps, self.plan, strict=True):
+            value = values[i] if merge is None else merge(values[i + 1 : i + count])
+            i += count
             factor = act(value, _given(matrix, origin) if wants else _NOTHING)
             if type(factor) is not np.ndarray or factor.shape != (4, 4):
                 factor = _as_matrix(factor, change)
@@ -100,7 +126,8 @@ def _as_matrix(value: Any, change: type) -> Array:
     return matrix
 
 
-_runs: WeakValueDictionary[tuple[Any, ...], Run] = WeakValueDictionary()
+# By the identities of what they are made of: a run keeps all of it alive, and nobody here keeps a run alive.
+_runs: WeakValueDictionary[tuple[int, ...], Run] = WeakValueDictionary()
 
 
 def run_of(
@@ -121,10 +148,11 @@ def run_of(
         owner = entries[start].owner
         while stop < len(entries) and entries[stop].owner is owner:
             stop += 1
-        key = (below, entries[start:stop], origin, table)
+        own = entries[start:stop]
+        key = (id(below), *map(id, own), id(origin), id(table))
         run = _runs.get(key)
         if run is None:
-            run = _runs.setdefault(key, Run(below, entries[start:stop], origin, table))
+            run = _runs.setdefault(key, Run(below, own, origin, table))
         below = run
         start = stop
     return below

@@ -278,6 +278,7 @@ class Vector(Typed[Array, Numbers | None]):
     ) -> None:
         self.shape: tuple[int | None, ...] = (size,) if isinstance(size, int) else size
         self.is_direction, self.spreads, self.low, self.is_whole = is_direction, spreads, low, is_whole
+        self.is_plain = len(self.shape) == 1 and not is_direction and low == -math.inf and not is_whole
         super().__init__(default, doc=doc, unit=unit)
 
     def admit(self, value: Any) -> Any:
@@ -290,6 +291,8 @@ class Vector(Typed[Array, Numbers | None]):
 
     def check(self, value: Any) -> Any:
         """An array of the declared shape, frozen."""
+        if self.is_plain and self._is_plain(value):
+            return value
         if value is None and self.is_optional:
             return None
         if isinstance(value, str):
@@ -303,7 +306,7 @@ class Vector(Typed[Array, Numbers | None]):
         except (TypeError, ValueError):
             raise self.refused(self._expected(), value) from None
         if self.spreads and array.ndim == 0:
-            array = np.full(tuple([n or 0 for n in self.shape]), float(array))
+            array = np.array([float(array)] * (self.shape[0] or 0))
         if array.ndim != len(self.shape) or any(
             n not in (None, m) for n, m in zip(self.shape, array.shape, strict=True)
         ):
@@ -323,6 +326,13 @@ class Vector(Typed[Array, Numbers | None]):
         if array is value and not array.flags.writeable:
             return array
         return freeze(array.copy() if array is value or array.base is not None else array)
+
+    def _is_plain(self, value: Any) -> bool:
+        """Whether this is what keys answer: a frozen array of the right shape and type. The commonest of cases."""
+        if type(value) is not np.ndarray or value.shape != self.shape or value.flags.writeable:
+            return False
+        total = sum(value.tolist())
+        return value.dtype.char == "d" and total - total == 0.0
 
     def _expected(self) -> str:
         if len(self.shape) == 1:
