@@ -5,7 +5,6 @@ A ray is an origin and a direction of any length but 0; its **distance** t is co
 counted in metres from the point nearest to the world's origin, which keeps the digits of far-away cameras.
 """
 
-import math
 from dataclasses import dataclass
 from typing import Any, NoReturn, Self, TypeAlias, final
 
@@ -22,9 +21,8 @@ __all__ = ["Hits", "Lines", "Tree", "columns", "hits", "intersect_mesh", "tree"]
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 
-_WIDE = 8  # children of a box in the tree
-_LEAF = 4  # triangles in a lowest box
-_BLOCK = 1 << 14  # rays that go through the tree together
+_WIDE = 8  # boxes in a group of the tree
+_BLOCK = 1 << 12  # rays that go through the tree together
 
 
 @final
@@ -203,13 +201,14 @@ class Tree:
     """Boxes in boxes round the triangles of one mesh, so that a ray need not try all of them.
 
     Attributes:
-        corners: (3, 3, T), corner, axis, triangle; the triangles in the order of the tree.
-        levels: for each level from the top (2, 3, B) lowest and highest coordinates; box b holds the boxes 8 b to
-            8 b + 7 below, a lowest one the triangles 4 b to 4 b + 3.
+        corners: (3, 3, T), corner, axis, triangle, in the order of the tree.
+        levels: for each level from the top (2, 3, G, 8) float32, the lowest and the highest coordinates of the boxes in
+            each group; box b of group g holds the group, or at last the triangle, 8 g + b below. Boxes that hold
+            nothing are NaN, which no ray meets.
     """
 
     corners: Floats
-    levels: tuple[Floats, ...]
+    levels: tuple[NDArray[np.float32], ...]
 
     @property
     def nbytes(self) -> int:
@@ -222,8 +221,8 @@ def tree(mesh: Mesh) -> Tree:
 
     Triangles are sorted along a Morton curve (Morton 1966; Lauterbach and others 2009).
 
-    >>> tree(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])).levels[0].tolist()
-    [[[0.0], [0.0], [0.0]], [[1.0], [1.0], [0.0]]]
+    >>> tree(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])).levels[0][..., 0, 0].tolist()
+    [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
     """
     points = mesh.points.astype(np.float64)
     corners = points[mesh.faces]
@@ -232,12 +231,13 @@ def tree(mesh: Mesh) -> Tree:
         low = middle.min(axis=0)
         width = float((middle.max(axis=0) - low).max()) or 1.0
         corners = corners[np.argsort(_morton(((middle - low) * (1023.0 / width)).astype(np.uint32)), kind="stable")]
-    low, high = _boxes(corners.min(axis=1).T, corners.max(axis=1).T, _LEAF)
-    levels = [np.stack([low, high])]
-    while low.shape[1] > _WIDE:
-        low, high = _boxes(low, high, _WIDE)
-        levels.insert(0, np.stack([low, high]))
-    return Tree(freeze(np.ascontiguousarray(corners.transpose(1, 2, 0))), tuple(map(freeze, levels)))
+    ends = np.stack([corners.min(axis=1).T, corners.max(axis=1).T])
+    levels = [_grouped(ends)]
+    while levels[0].shape[2] > 1:
+        ends = np.stack([np.fmin.reduce(levels[0][0], axis=-1), np.fmax.reduce(levels[0][1], axis=-1)])
+        levels.insert(0, _grouped(ends))
+    columns = freeze(np.ascontiguousarray(corners.transpose(1, 2, 0)))
+    return Tree(columns, tuple(freeze(level.astype(np.float32)) for level in levels))
 
 
 def intersect_mesh(mesh: Mesh, origins: ArrayLike, directions: ArrayLike, *, within: Tree | None = None) -> Hits:
@@ -284,12 +284,13 @@ def _morton(cells: NDArray[np.uint32]) -> NDArray[np.uint32]:
     return cells[:, 0] | cells[:, 1] << np.uint32(1) | cells[:, 2] << np.uint32(2)
 
 
-def _boxes(low: Floats, high: Floats, many: int) -> tuple[Floats, Floats]:
-    """The boxes round so many neighbours each, (3, B)."""
-    starts = np.arange(0, int(low.shape[1]), many)
-    if not len(starts):
-        return np.full((3, 0), np.inf), np.full((3, 0), -np.inf)
-    return np.minimum.reduceat(low, starts, axis=1), np.maximum.reduceat(high, starts, axis=1)
+def _grouped(ends: Floats) -> Floats:
+    """Ends of boxes (2, 3, B) in groups of eight, (2, 3, G, 8), the last group filled with NaN."""
+    count = int(ends.shape[2])
+    groups = max(-(-count // _WIDE), 1)
+    answer = np.full((2, 3, groups * _WIDE), np.nan)
+    answer[..., :count] = ends
+    return answer.reshape(2, 3, groups, _WIDE)
 
 
 def _met(boxes: Tree, lines: Lines) -> tuple[Floats, Floats]:
@@ -298,28 +299,30 @@ def _met(boxes: Tree, lines: Lines) -> tuple[Floats, Floats]:
     normal = np.zeros((3, len(lines)))
     if not boxes.corners.size:
         return place, normal
-    # A little wider, so that flat boxes are not lost to rounding.
-    extent = float(np.abs(boxes.levels[0]).max())
-    slack = 1e-12 * (extent + float(np.abs(lines.near).max(initial=0.0)))
-    still = lines.unit == 0.0
-    inverse = 1.0 / np.where(still, 1e-300, lines.unit)
-    count = int(boxes.levels[0].shape[2])
-    ray = np.repeat(np.arange(len(lines)), count)
-    box = np.tile(np.arange(count), len(lines))
-    for depth, level in enumerate(boxes.levels):
-        if depth:
-            ray, box = _below(ray, box, _WIDE, level.shape[2])
-        enter, leave = lines.start[ray], np.full(len(ray), math.inf)
+    # Boxes are tried in float32, a little wider for its rounding.
+    scale = float(np.nanmax(np.abs(boxes.levels[0]))) + np.abs(lines.near).max(axis=0)
+    start = (lines.start - 1e-5 * scale).astype(np.float32)
+    unit = np.where(np.abs(lines.unit) > 1e-20, lines.unit, 1e-20)
+    inverse, low = (1.0 / unit).astype(np.float32), (lines.near + 1e-6 * scale).astype(np.float32)
+    high = (lines.near - 1e-6 * scale).astype(np.float32)
+    ray = np.arange(len(lines))
+    group = np.zeros(len(lines), np.intp)
+    for level in boxes.levels:
+        enter, leave = start[ray][:, None], np.float32(np.inf)
         for axis in range(3):
-            near, step = lines.near[axis][ray], inverse[axis][ray]
-            first, second = (level[0, axis][box] - slack - near) * step, (level[1, axis][box] + slack - near) * step
+            step = inverse[axis][ray][:, None]
+            first = level[0, axis][group]
+            first -= low[axis][ray][:, None]
+            first *= step
+            second = level[1, axis][group]
+            second -= high[axis][ray][:, None]
+            second *= step
             enter = np.maximum(enter, np.minimum(first, second))
-            leave = np.minimum(leave, np.maximum(first, second))
-        kept = enter <= leave
-        ray, box = ray[kept], box[kept]
-    ray, triangle = _below(ray, box, _LEAF, boxes.corners.shape[2])
-    found, at = _triangles(boxes.corners, triangle, lines, ray)
-    ray, triangle = ray[found], triangle[found]
+            leave = np.minimum(leave, np.maximum(first, second, out=second))
+        parent, child = np.nonzero(enter <= leave)
+        ray, group = ray[parent], group[parent] * _WIDE + child
+    found, at = _triangles(boxes.corners, group, lines.some(ray))
+    ray, triangle = ray[found], group[found]
     np.minimum.at(place, ray, at)
     nearest = at == place[ray]
     a, b, c = boxes.corners[:, :, triangle[nearest]]
@@ -327,33 +330,19 @@ def _met(boxes: Tree, lines: Lines) -> tuple[Floats, Floats]:
     return place, normal
 
 
-def _below(
-    ray: NDArray[np.intp], box: NDArray[np.intp], many: int, limit: int
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    children = (box[:, None] * many + np.arange(many)).ravel()
-    parents = np.repeat(ray, many)
-    if not len(children) or int(children.max()) < limit:
-        return parents, children
-    there = children < limit
-    return parents[there], children[there]
-
-
-def _triangles(
-    corners: Floats, triangle: NDArray[np.intp], lines: Lines, ray: NDArray[np.intp]
-) -> tuple[Flags, Floats]:
-    """Which pairs of triangle and ray meet, and the places where these do."""
+def _triangles(corners: Floats, triangle: NDArray[np.intp], lines: Lines) -> tuple[NDArray[np.bool_], Floats]:
+    """Which of these lines meet their triangle, and at which places."""
     a, b, c = (corner[:, triangle] for corner in corners)
     u, v = b - a, c - a
-    unit = lines.unit[:, ray]
-    across = _cross(unit, v)
+    across = _cross(lines.unit, v)
     det = _dot(u, across)
     flat = det == 0.0
     inverse = 1.0 / np.where(flat, 1.0, det)
-    offset = lines.near[:, ray] - a
+    offset = lines.near - a
     s = _dot(offset, across) * inverse
     turned = _cross(offset, u)
-    t = _dot(unit, turned) * inverse
+    t = _dot(lines.unit, turned) * inverse
     at = _dot(v, turned) * inverse
     edge = 1e-12
-    found = ~flat & (s >= -edge) & (t >= -edge) & (s + t <= 1.0 + edge) & (at >= lines.start[ray])
+    found = ~flat & (s >= -edge) & (t >= -edge) & (s + t <= 1.0 + edge) & (at >= lines.start)
     return found, at[found]

@@ -87,6 +87,23 @@ class TestMeshes:
         line = Mesh([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
         assert np.isinf(rays.intersect_mesh(line, [(0.5, 0, 1)], [(0, 0, -1)]).distance).all()
 
+    def test_rays_from_far_away_and_past_far_places(self):
+        """At a soup 10 km off, from 1,000 km away, with rays among them that pass 1e12 m off."""
+        near = soup(300)
+        far = near.with_points(near.points * np.float32(100) + np.float32(1e4))
+        draw = np.random.default_rng(6)
+        aims = far.points[far.faces].astype(float).mean(axis=1)
+        origins = aims + 1e6 * draw.normal(size=aims.shape)
+        origins[::3] += 1e12
+        directions = aims - origins
+        directions[::3] = 1.0, -1.0, 0.0
+        found, expected = rays.intersect_mesh(far, origins, directions), brute(far, origins, directions)
+        assert np.isinf(found.distance[::3]).all()
+        met = np.isfinite(found.distance)
+        assert met.sum() >= 0.9 * 2 / 3 * len(aims)
+        both = met & np.isfinite(expected)
+        assert np.median(np.abs(found.distance[both] - expected[both])) < 1e-9
+
     def test_more_rays_than_one_block(self):
         """40,000 rays at a torus give what 10 of them give alone."""
         ring = Mesh(tori.points(), tori.faces())
