@@ -23,14 +23,18 @@ from reactive4d.model.colorings import Color, Opacity, Shade, Texture
 from reactive4d.model.deformations import Bend, FreeForm, Ripple, Skew, Taper, Twist, Wave, XForm
 from reactive4d.model.frames import Frame
 from reactive4d.model.kinds.aggregates import Combination, Group, Hull
+from reactive4d.model.kinds.blobs import Blob
 from reactive4d.model.kinds.boxes import Box
 from reactive4d.model.kinds.cylinders import Cone, Cylinder, Quadric, Tube
 from reactive4d.model.kinds.models import Model
+from reactive4d.model.kinds.patches import Patch
 from reactive4d.model.kinds.planes import Plane
+from reactive4d.model.kinds.polyhedra import Polyhedron, Teapot
 from reactive4d.model.kinds.shapes import Circle, Helix, Line, Ngon, Path, Rectangle, Star
 from reactive4d.model.kinds.spheres import Sphere
 from reactive4d.model.kinds.superquadrics import Superquadric
 from reactive4d.model.kinds.sweeps import Duct, Prism, Revolution
+from reactive4d.model.kinds.texts import Lettering
 from reactive4d.model.kinds.tori import Torus
 from reactive4d.model.kinds.views import Camera, Label, Light, Point
 from reactive4d.model.mappings import MapTexture
@@ -57,6 +61,7 @@ __all__ = [
     "FOREVER",
     "Become",
     "Bend",
+    "Blob",
     "Box",
     "Camera",
     "Change",
@@ -91,6 +96,7 @@ __all__ = [
     "Keys",
     "Label",
     "Lathe",
+    "Lettering",
     "Light",
     "Line",
     "Lines",
@@ -113,10 +119,12 @@ __all__ = [
     "Paint",
     "Parameter",
     "ParameterError",
+    "Patch",
     "Path",
     "Places",
     "Plane",
     "Point",
+    "Polyhedron",
     "Prism",
     "Quadric",
     "Reactive4dError",
@@ -139,6 +147,7 @@ __all__ = [
     "Superquadric",
     "Table",
     "Taper",
+    "Teapot",
     "Text",
     "Texture",
     "TimeError",

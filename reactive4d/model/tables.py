@@ -106,17 +106,26 @@ class Table(Mapping[str, Callable[..., Any]]):
         self.changes: dict[str, Callable[..., Any]] = dict(changes or {})
 
     @classmethod
-    def of(cls, module: ModuleType, **methods: Callable[..., Any]) -> "Table":
+    def of(
+        cls, module: ModuleType, *, renamed: Mapping[str, str] | None = None, **methods: Callable[..., Any]
+    ) -> "Table":
         """A table of the functions of a module that are called like methods, and of more.
+
+        Args:
+            module: of the geometry.
+            renamed: what an argument of its functions is called as a setting.
+            **methods: more of them, or others in their places.
 
         >>> from reactive4d.geometry import spheres
         >>> "intersect" in Table.of(spheres)
         True
         """
-        found: dict[str, Any] = {name: getattr(module, name, None) for name in METHODS}
-        every: dict[str, Any] = {name: function for name, function in found.items() if callable(function)}
-        every.update(methods)
-        return cls(**every)
+        found: dict[str, Callable[..., Any]] = {}
+        for name in METHODS:
+            function = getattr(module, name, None)
+            if inspect.isfunction(function):
+                found[name] = _renamed(function, renamed or {})
+        return cls(**{**found, **methods})
 
     def __getitem__(self, name: str) -> Callable[..., Any]:
         return self._methods[name]
@@ -132,3 +141,19 @@ def arguments(function: Callable[..., Any]) -> tuple[str, ...]:
     """The names of a function's arguments."""
     parameters = inspect.signature(function).parameters.values()
     return tuple([p.name for p in parameters if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)])
+
+
+def _renamed(function: Callable[..., Any], names: Mapping[str, str]) -> Callable[..., Any]:
+    """The same function with other names for some of its arguments."""
+    if not any(name in names for name in arguments(function)):
+        return function
+    back = {new: old for old, new in names.items()}
+
+    def call(*given: Any, **named: Any) -> Any:
+        return function(*given, **{back.get(name, name): value for name, value in named.items()})
+
+    signature = inspect.signature(function)
+    parameters = [p.replace(name=names.get(p.name, p.name)) for p in signature.parameters.values()]
+    call.__signature__ = signature.replace(parameters=parameters)  # pyright: ignore[reportFunctionMemberAccess]
+    call.__name__, call.__module__ = function.__name__, function.__module__
+    return call
