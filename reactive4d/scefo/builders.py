@@ -16,7 +16,6 @@ from reactive4d.scefo.notes import behind
 from reactive4d.scefo.tokens import Token
 from reactive4d.scefo.trees import (
     NO_NOTES,
-    Alias,
     Attribute,
     Binary,
     Boolean,
@@ -40,6 +39,7 @@ from reactive4d.scefo.trees import (
     Read,
     Record,
     Script,
+    Show,
     Slice,
     Statement,
     Template,
@@ -94,10 +94,10 @@ class Builder:
         default, settings, notes = _valued(first, value, body)
         return Parameter(name, default, settings, notes=notes, at=first.at)
 
-    def alias(self, parts: list[Any]) -> Statement:
-        """`alias (new) old;`."""
+    def show(self, parts: list[Any]) -> Statement:
+        """`show (name) object;`."""
         first, name, target = parts
-        return Alias(name, target, notes=_notes(first), at=first.at)
+        return Show(name, target, notes=_notes(first), at=first.at)
 
     def change(self, parts: list[Any]) -> Statement:
         """`change (objects) operations;`."""

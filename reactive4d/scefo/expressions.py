@@ -77,6 +77,18 @@ def evaluate(expression: Expression, resolve: Resolve, *, functions: Mapping[str
     return _Evaluation(resolve, functions).of(expression)
 
 
+# How functions of values, ours and NumPy's, refuse what they are given; and what a full stack raises.
+_REFUSALS: Final = (
+    Reactive4dError,
+    TypeError,
+    ValueError,
+    ArithmeticError,
+    LookupError,
+    AttributeError,
+    RecursionError,
+)
+
+
 class _Evaluation:
     """One expression on its way to a value."""
 
@@ -92,10 +104,9 @@ class _Evaluation:
             return _MAKERS[type(x)](self, x)
         except ScriptError:
             raise
-        except (Reactive4dError, TypeError, ValueError, ArithmeticError, LookupError, AttributeError) as error:
+        except _REFUSALS as error:
             line, column = x.at if x.at.line else (None, None)
-            text = str(error) if isinstance(error, Reactive4dError) or not isinstance(error, KeyError) else repr(error)
-            wrong = ScriptError(text or type(error).__name__, line=line, column=column)
+            wrong = ScriptError(str(error) or type(error).__name__, line=line, column=column)
             for note in getattr(error, "__notes__", ()):
                 wrong.add_note(note)
             raise wrong from error

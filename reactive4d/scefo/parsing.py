@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import cache
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final
 
@@ -96,7 +97,7 @@ def _parser() -> Any:
 
     from reactive4d.scefo.builders import Builder
 
-    grammar = Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8")
+    grammar = files("reactive4d.scefo").joinpath("grammar.lark").read_text(encoding="utf-8")
     return Lark(grammar, parser="lalr", lexer=_lexer(), transformer=Builder(), maybe_placeholders=True)
 
 
@@ -137,7 +138,7 @@ _NAMED: Final = {
     "EQUAL": "'=='", "UNEQUAL": "'!='", "PLUS": "'+'", "MINUS": "'-'", "STAR": "'*'", "SLASH": "'/'",
     "PERCENT": "'%'", "CARET": "'^'", "ELLIPSIS": "'...'", END: "the end",
 }  # fmt: skip
-_STATEMENT: Final = "a statement (read, object, template, change, signal, variable, parameter, alias)"
+_STATEMENT: Final = "a statement (read, object, template, change, signal, variable, parameter, show)"
 
 
 def _wrong(token: Token, previous: Token | None, accepted: set[str]) -> ScriptError:

@@ -15,7 +15,6 @@ __all__ = [
     "MOST_NESTED",
     "NOWHERE",
     "NO_NOTES",
-    "Alias",
     "Attribute",
     "Binary",
     "Boolean",
@@ -41,6 +40,7 @@ __all__ = [
     "Read",
     "Record",
     "Script",
+    "Show",
     "Slice",
     "Statement",
     "Template",
@@ -49,7 +49,7 @@ __all__ = [
     "Use",
 ]
 
-MOST_NESTED: Final = 100  # expressions inside of one another
+MOST_NESTED: Final = 64  # expressions inside of one another
 
 
 class Place(NamedTuple):
@@ -397,8 +397,8 @@ class Template:
 
 
 @dataclass(frozen=True, slots=True)
-class Alias:
-    """`alias (globe) ball;`: another name in the scene for an object."""
+class Show:
+    """`show (globe) ball;`: an object put into the scene, under this name."""
 
     name: Name
     target: Name
@@ -438,7 +438,7 @@ class Parameter:
     at: Place = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
-Statement: TypeAlias = Read | Create | Template | Alias | Change | Define | Parameter
+Statement: TypeAlias = Read | Create | Template | Show | Change | Define | Parameter
 
 
 @dataclass(frozen=True, slots=True)

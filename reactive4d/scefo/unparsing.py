@@ -62,7 +62,7 @@ __all__ = ["NameOf", "NotWritableError", "Unparsed", "unparse", "unparse_all"]
 # From a signal or an object to its path in the script; None where it has none.
 NameOf: TypeAlias = Callable[[Any], Path | None]
 MOST_NODES: Final = 1_000_000  # of all expressions together
-_DEEP: Final = 50  # where expressions are nested deeper, a part of them is named
+_DEEP: Final = 40  # where expressions are nested deeper, a part of them is named
 
 
 class NotWritableError(Reactive4dError):

@@ -8,7 +8,7 @@ __all__ = ["NAME", "RESERVED", "STATEMENTS", "name_text", "quoted"]
 NAME: Final = r"[^\W\d]\w*"
 # Words that begin a statement are words nowhere else.
 STATEMENTS: Final = frozenset(
-    {"alias", "change", "hidden", "object", "parameter", "read", "signal", "template", "variable"}
+    {"change", "hidden", "object", "parameter", "read", "show", "signal", "template", "variable"}
 )
 # Words that a name may spell only in backquotes.
 RESERVED: Final = frozenset(

@@ -5,7 +5,6 @@ from typing import Any, Final
 
 from reactive4d.scefo.notes import behind
 from reactive4d.scefo.trees import (
-    Alias,
     Attribute,
     Binary,
     Boolean,
@@ -30,6 +29,7 @@ from reactive4d.scefo.trees import (
     Read,
     Record,
     Script,
+    Show,
     Slice,
     Statement,
     Text,
@@ -214,8 +214,8 @@ def _named(name: Name) -> str:
 
 def _statement(x: Statement) -> list[_Line]:
     """The lines of a statement, without the semicolon."""
-    if isinstance(x, Alias):
-        return [_Line(f"alias ({_named(x.name)}) {_named(x.target)}")]
+    if isinstance(x, Show):
+        return [_Line(f"show ({_named(x.name)}) {_named(x.target)}")]
     if isinstance(x, Change):
         return _change(x)
     if isinstance(x, Define):

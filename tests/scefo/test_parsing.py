@@ -3,12 +3,14 @@
 import pickle
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path as File
 from typing import Any
 
 import pytest
 
 from reactive4d.errors import Reactive4dError, ScriptError
+from reactive4d.scefo.expressions import evaluate
 from reactive4d.scefo.parsing import MOST_LETTERS, parse, source
 from reactive4d.scefo.trees import (
     MOST_NESTED,
@@ -27,6 +29,7 @@ from reactive4d.scefo.trees import (
     Text,
     Use,
 )
+from reactive4d.scefo.writing import write
 
 PRINTED = File(__file__).with_name("figure1_as_printed.scefo")
 
@@ -280,7 +283,28 @@ DEEP = 5 * MOST_NESTED
 )
 def test_what_is_nested_too_deep_is_refused(text: str) -> None:
     """Brackets, signs, powers, indices and keys inside of one another: never a RecursionError."""
-    assert "more than 100" in str(refused(f"signal (a) {text};"))
+    assert f"more than {MOST_NESTED}" in str(refused(f"signal (a) {text};"))
+
+
+@pytest.mark.parametrize("text", ["{", "(-", "max(1, ", "{a: ", "keys(<0, "])
+def test_what_is_nested_as_deep_as_allowed_can_be_used(text: str) -> None:
+    """It is read, written, compared, hashed, pickled and evaluated, and the stack is not full."""
+    ends = {"{": "}", "(-": ")", "max(1, ": ")", "{a: ": "}", "keys(<0, ": ">)"}
+    script = parse(f"signal (a) {text * (MOST_NESTED - 1)}x{ends[text] * (MOST_NESTED - 1)};")
+
+    assert parse(write(script)) == script
+    assert hash(script) == hash(pickle.loads(pickle.dumps(script)))
+    assert evaluate(script.statements[0].value, lambda path: 1.0) is not None  # pyright: ignore
+
+
+def test_scripts_are_read_by_several_threads_at_once() -> None:
+    """Nothing of one reading is left for another."""
+    texts = [f"// {i}\nobject (a{i}) sphere; // {i}\n" * 50 for i in range(8)]
+
+    with ThreadPoolExecutor(4) as pool:
+        scripts = list(pool.map(parse, texts))
+
+    assert [write(script) for script in scripts] == texts
 
 
 def test_what_stands_side_by_side_has_no_limit() -> None:

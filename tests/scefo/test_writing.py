@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from reactive4d.scefo import trees
 from reactive4d.scefo.parsing import parse
 from reactive4d.scefo.trees import (
-    Alias,
     Attribute,
     Binary,
     Boolean,
@@ -38,6 +37,7 @@ from reactive4d.scefo.trees import (
     Read,
     Record,
     Script,
+    Show,
     Slice,
     Template,
     Text,
@@ -192,7 +192,7 @@ class Trees:
         if kind == 2:
             return Template(name, self.bare(), self.attributes(), is_hidden=is_hidden, notes=notes)
         if kind == 3:
-            return Alias(name, Name(self.name()), notes=notes)
+            return Show(name, Name(self.name()), notes=notes)
         if kind == 4:
             found = list(self.some(self.operation, 1, 3))
             found[-1] = replace(found[-1], notes=Notes(found[-1].notes.before, ()))
