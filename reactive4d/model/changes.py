@@ -21,7 +21,7 @@ from reactive4d.errors import Reactive4dError, unknown
 from reactive4d.model.attributes import Part, Values, refuse_own
 from reactive4d.model.gates import Gate
 from reactive4d.model.registries import CHANGES, kind_named
-from reactive4d.model.settings import Flag, Setting, declared, is_signal
+from reactive4d.model.settings import Flag, Reference, Setting, declared, is_signal
 from reactive4d.model.tables import arguments
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.sources import refuse_reading_itself
@@ -84,8 +84,9 @@ class Change:
     """A change of an object: one of the classes below it, or a user's own.
 
     A class declares its attributes, in the order in which its constructor takes them; those after the first
-    `positional` ones are keyword-only. What it does stands in one static function, whose argument names say what it is
-    given: names of its attributes, and what the changes before it left (see the base class of its lane).
+    `positional` ones are keyword-only. Of these first ones those without a default must be given. What it does stands
+    in one static function, whose argument names say what it is given: names of its attributes, and what the changes
+    before it left (see the base class of its lane).
 
     >>> import reactive4d as r4
     >>> class Hop(r4.Transform):
@@ -120,6 +121,9 @@ class Change:
         found: dict[str, Setting[Any]] = {s.name: s for s in cls.settings}
         found.update({name: setting for name, setting in declared(cls).items() if name != "enabled"})
         cls.settings = tuple(found.values())
+        for setting in cls.settings[: cls.positional]:
+            if setting.default is None and not isinstance(setting, Reference):
+                setting.is_optional = False  # what a change is about has to be said
         cls.indices = {name: i for i, name in enumerate(found)}
         cls.steps = {}
         cls._defaults = tuple([s.default for s in cls.settings])
@@ -282,11 +286,13 @@ class Change:
 
     def __repr__(self) -> str:
         given = [
-            f"{s.name}={getattr(x, 'name', x)!r}"
-            for s, x in zip(self.settings, self.contents, strict=True)
-            if x is not s.default
+            f"{s.name}={_told(x)}" for s, x in zip(self.settings, self.contents, strict=True) if x is not s.default
         ]
         return f"{type(self).__name__}({', '.join(given)})"
+
+
+def _told(value: Any) -> str:
+    return value.__name__ if isinstance(value, type) else getattr(value, "name", None) or repr(value)
 
 
 def snake(name: str) -> str:

@@ -33,10 +33,10 @@ class Changes(MutableSequence[Change]):
     ['Translate', 'Rotate']
     """
 
-    __slots__ = ("_object",)
+    __slots__ = ("obj",)
 
     def __init__(self, obj: "Object") -> None:
-        self._object = obj
+        self.obj = obj
 
     # -- reading ---------------------------------------------------------------------------------------------------
 
@@ -48,19 +48,19 @@ class Changes(MutableSequence[Change]):
             Reactive4dError: the prototype varies; then the list is asked for a time, `changes.at(t)`.
         """
         found: list[Entry] = []
-        obj: Any = self._object
+        obj: Any = self.obj
         while obj is not None:
             found.extend(obj.own_entries())
             content = obj.prototype_content
             if isinstance(content, Signal):
-                error = Reactive4dError(f"{self._object.name}.changes: the prototype of {obj.name} varies")
+                error = Reactive4dError(f"{self.obj.name}.changes: the prototype of {obj.name} varies")
                 raise hint(error, "ask for the list at a time: obj.changes.at(t)")
             obj = content
         return tuple(sorted(found, key=lambda entry: entry.place))
 
     def at(self, t: float, /, **parameters: Any) -> tuple[Change, ...]:
         """The changes that act at a time, in their order."""
-        return tuple([e.change for e in self._object.acting.at(t, **parameters)])
+        return tuple([e.change for e in self.obj.acting.at(t, **parameters)])
 
     def owner(self, change: Change) -> "Object":
         """The object in whose list a change stands: this one, or a prototype."""
@@ -95,7 +95,7 @@ class Changes(MutableSequence[Change]):
         for i, entry in enumerate(self.entries):
             if entry.change is value and i >= start and (stop is None or i < stop):
                 return i
-        raise ValueError(f"{value!r} does not stand in {self._object.name}.changes")
+        raise ValueError(f"{value!r} does not stand in {self.obj.name}.changes")
 
     # -- editing ---------------------------------------------------------------------------------------------------
 
@@ -123,7 +123,7 @@ class Changes(MutableSequence[Change]):
     def __setitem__(self, index: int | slice, value: Any) -> None:
         """Replace a change by another one at the same place."""
         if isinstance(index, slice):
-            raise TypeError(f"{self._object.name}.changes: replace changes one by one")
+            raise TypeError(f"{self.obj.name}.changes: replace changes one by one")
         _refuse_no_change(value)
         with engine.transaction():
             entry = self._owned(self.entries[index])
@@ -164,23 +164,27 @@ class Changes(MutableSequence[Change]):
     # -- how -------------------------------------------------------------------------------------------------------
 
     def _after(self, entries: tuple[Entry, ...], index: int) -> Place:
-        return places.following(entries[index].place if index >= 0 else self._object.oldest.born)
+        return places.following(entries[index].place if index >= 0 else self.obj.oldest.born)
 
     def _entry(self, change: Any) -> Entry:
+        """The first entry of a change: one's own, if there is one."""
+        for entry in sorted(self.obj.own_entries(), key=lambda entry: entry.place):
+            if entry.change is change:
+                return entry
         for entry in self.entries:
             if entry.change is change:
                 return entry
-        raise ValueError(f"{change!r} does not stand in {self._object.name}.changes")
+        raise ValueError(f"{change!r} does not stand in {self.obj.name}.changes")
 
     def _owned(self, entry: Entry) -> Entry:
-        if entry.owner is not self._object:
+        if entry.owner is not self.obj:
             error = Reactive4dError(f"{entry.change!r} is inherited: it stands in the list of {entry.owner.name}")
             raise hint(error, f"edit {entry.owner.name}.changes; all that extend it follow")
         return entry
 
     def _put(self, change: Change, place: Place) -> None:
-        entry = Entry(change, self._object, place)
-        own: Own = self._object.own(change.lane)
+        entry = Entry(change, self.obj, place)
+        own: Own = self.obj.own(change.lane)
         change.enter(own)
         items = own.content
         i = len(items)
@@ -189,7 +193,7 @@ class Changes(MutableSequence[Change]):
         own.put((*items[:i], item(entry), *items[i:]))
 
     def _take(self, entry: Entry) -> None:
-        own: Own = self._object.own(entry.change.lane)
+        own: Own = self.obj.own(entry.change.lane)
         own.put(tuple([x for x in own.content if entry_of(x) is not entry]))
 
     def __repr__(self) -> str:
@@ -200,6 +204,6 @@ class Changes(MutableSequence[Change]):
 
 
 def _refuse_no_change(value: Any) -> None:
-    if not isinstance(value, Change) or type(value).lane not in LANES:
+    if not isinstance(value, Change) or getattr(type(value), "lane", None) not in LANES:
         error = TypeError(f"expected a change, got {value!r}")
         raise hint(error, "such as Translate((1, 0, 0)) or Bend(60)")

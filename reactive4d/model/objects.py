@@ -1,9 +1,9 @@
 """Objects: an identity, an ordered list of changes, and everything that one can ask about them."""
 
-import itertools
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -91,6 +91,7 @@ class Object:
         self._prototype: Prototype | None = None
         self._has_prototype = False
         self._names: Names | None = None
+        self._passing: WeakValueDictionary[Any, Signal[Any]] | None = None
         self._raw: dict[str, Any] = {}
         known = type(self).settings
         for name, value in settings.items():
@@ -180,9 +181,10 @@ class Object:
 
     def shaping_names(self) -> tuple[str, ...]:
         """The names of the settings that it has set itself, but for those that have no say in what it is made of."""
-        return tuple([name for name in self._set_names() if name not in _UNSHAPED])
+        return tuple([name for name in self.set_names() if name not in _UNSHAPED])
 
-    def _set_names(self) -> tuple[str, ...]:
+    def set_names(self) -> tuple[str, ...]:
+        """The names of the settings that it has set itself, as they are by now."""
         made = dict(self._attributes)  # others may be made meanwhile
         names = {name for name in self._raw if name not in made} | {n for n, a in made.items() if a.is_set}
         return tuple(sorted(names))
@@ -192,7 +194,7 @@ class Object:
         wanted = kind.settings[name]
         if type(self).settings.get(name) is wanted or name in _UNSHAPED:
             return self.attribute(name)
-        return self.channel(f"{name}@{kind.__name__}@{id(kind)}", lambda obj: _understood(obj, wanted))
+        return self.channel(f"{name}@{kind.__name__}@{id(kind)}", lambda obj: _understood(obj, kind, name))
 
     # -- prototypes ------------------------------------------------------------------------------------------------
 
@@ -259,6 +261,12 @@ class Object:
         """The list of changes, its own and the inherited ones."""
         return Changes(self)
 
+    @changes.setter
+    def changes(self, value: Changes) -> None:
+        # `obj.changes += [change]` ends with an assignment.
+        if not isinstance(value, Changes) or value.obj is not self:  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise hint(TypeError(f"{self.name}.changes cannot be set"), "edit the list: append, insert, remove, clear")
+
     def own(self, lane: Lane) -> Own:
         """The entries of one lane in its own list."""
         found = self._own.get(lane)
@@ -303,6 +311,16 @@ class Object:
         if found is None:
             found = self._channels.setdefault(label, Channel(self, label, answer))
         return found
+
+    def passing(self, key: Any, answer: Callable[[Any], Any]) -> Signal[Any]:
+        """The same for as long as somebody reads it: for what there may be endlessly many of."""
+        with LOCK:
+            if self._passing is None:
+                self._passing = WeakValueDictionary()
+            found = self._passing.get(key)
+            if found is None:
+                found = self._passing[key] = Channel(self, ".".join(map(str, key)), answer)
+            return found
 
     @property
     def kind(self) -> Signal[type["Object"]]:
@@ -541,8 +559,7 @@ class Parameters(MutableMapping[str, Attribute[Any]]):
         self._object = obj
 
     def __getitem__(self, name: str) -> Attribute[Any]:
-        if name not in self:
-            raise KeyError(name)
+        self._known(name)
         return self._object.attribute(name)
 
     def __setitem__(self, name: str, value: Any) -> None:
@@ -551,17 +568,28 @@ class Parameters(MutableMapping[str, Attribute[Any]]):
         self._object.assign(name, value)
 
     def __delitem__(self, name: str) -> None:
+        self._known(name)
         self._object.unassign(name)
 
+    def _known(self, name: str) -> None:
+        if name not in self:
+            error = KeyError(name)
+            near = unknown(str(name), self, what=f"setting of {self._object.name}")
+            raise hint(error, "; ".join(near.__notes__).removeprefix("hint: "))
+
     def __iter__(self) -> Iterator[str]:
-        obj = self._object
-        return iter(dict.fromkeys(itertools.chain(type(obj).settings, obj._set_names())))  # pyright: ignore
+        names = dict.fromkeys(type(self._object).settings)
+        obj: Any = self._object
+        while isinstance(obj, Object):
+            names.update(dict.fromkeys(obj.set_names()))
+            obj = obj.prototype_content
+        return iter(names)
 
     def __len__(self) -> int:
         return len(list(iter(self)))
 
     def __contains__(self, name: object) -> bool:
-        return name in list(iter(self)) or (isinstance(name, str) and name in self._object._attributes)  # pyright: ignore
+        return name in list(iter(self))
 
     def __repr__(self) -> str:
         return f"Parameters({{{', '.join([f'{n!r}: {self[n].source!r}' for n in self])}}})"
@@ -607,17 +635,18 @@ def entries_before(obj: Object, lane: Lane, place: Place) -> Items:
     prototype = obj.prototype.now()
     if prototype is None:
         return own
-    inherited = prototype.channel(f"changes.{lane}.before{place}", lambda o: entries_before(o, lane, place)).now()
+    inherited = prototype.passing(("changes", lane, place), lambda o: entries_before(o, lane, place)).now()
     return merged(own, inherited)
 
 
-def _understood(obj: Object, wanted: Setting[Any]) -> Any:
-    while wanted.name not in obj.names.now():
+def _understood(obj: Object, kind: type[Object], name: str) -> Any:
+    wanted = kind.settings[name]
+    while name not in obj.names.now():
         prototype = obj.prototype.now()
         if prototype is None:
             return wanted.default_value
         obj = prototype
-    return wanted.check(obj.attribute(wanted.name).now())
+    return wanted.check(obj.attribute(name).now())
 
 
 def _kind(obj: Object) -> type[Object]:
