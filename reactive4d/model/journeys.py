@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from reactive4d.errors import EvaluationError
 from reactive4d.geometry import curves
 from reactive4d.model.masses import closed_form
-from reactive4d.model.settings import Float
+from reactive4d.model.settings import Float, is_signal
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 
@@ -25,7 +25,7 @@ def along(obj: "Object", u: Any) -> Signal[Array]:
     share = _share(obj, u)
 
     def point() -> Array:
-        at = share.now() if isinstance(share, Signal) else share
+        at: float = share.now() if is_signal(share) else share
         method = closed_form(obj, "position_along")
         matrix = obj.matrix.now()
         own = _chain(obj, at, order=0) if method is None else np.asarray(method.now()(at), dtype=np.float64)
@@ -39,7 +39,7 @@ def tangent_along(obj: "Object", u: Any) -> Signal[Array]:
     share = _share(obj, u)
 
     def direction() -> Array:
-        at = share.now() if isinstance(share, Signal) else share
+        at: float = share.now() if is_signal(share) else share
         method = closed_form(obj, "tangent_along")
         own = _chain(obj, at, order=1) if method is None else np.asarray(method.now()(at), dtype=np.float64)
         turned = obj.matrix.now()[:3, :3] @ own

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.arrays import freeze
-from reactive4d.model.settings import Setting
+from reactive4d.model.settings import Setting, is_signal
 from reactive4d.signals.algebra import lift
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
@@ -26,16 +26,16 @@ class Outline(Setting[Array]):
 
     def admit(self, value: Any) -> Any:
         """An object as it is, points as an array."""
-        if isinstance(value, Signal) or hasattr(value, "changes") or (value is None and self.is_optional):
+        if is_signal(value) or hasattr(value, "changes") or (value is None and self.is_optional):
             return value
         return self.check(value)
 
     def signal(self, content: Any) -> Signal[Any] | None:
         """The outline of the object."""
-        if isinstance(content, Signal):
+        if is_signal(content):
 
             def followed() -> Any:
-                value = content.now()
+                value: Any = content.now()
                 return value.outline.now() if hasattr(value, "changes") else value
 
             return Function(followed, name=f"{content.name}.outline")
@@ -65,7 +65,7 @@ class Outlines(Setting[tuple[Array, ...]]):
 
     def admit(self, value: Any) -> Any:
         """A tuple of what an outline may be; an object alone is one of them."""
-        if isinstance(value, Signal):
+        if is_signal(value):
             return value
         if hasattr(value, "changes"):
             value = (value,)
@@ -76,7 +76,7 @@ class Outlines(Setting[tuple[Array, ...]]):
 
     def signal(self, content: Any) -> Signal[Any] | None:
         """All outlines as one signal, a tuple."""
-        if isinstance(content, Signal):
+        if is_signal(content):
             return content
         signals = [self.one.signal(x) for x in content]
         if all(x is None for x in signals):

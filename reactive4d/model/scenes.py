@@ -41,8 +41,8 @@ class Scene(MutableMapping[str, Object]):
     def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:
         self._contents = Contents((), name="scene.objects")
         self._bundles: dict[tuple[Any, ...], Gathered] = {}
-        self._root = Function(self._rooted, name="scene.root")
-        self._frame = Function(self._shown, name="scene")
+        self._root: Function[Root] = Function(self._rooted, name="scene.root")
+        self._frame: Function[tuple[Root, Bundle]] = Function(self._shown, name="scene")
         self.update({**(objects or {}), **named})
 
     # -- what it holds ---------------------------------------------------------------------------------------------
@@ -115,7 +115,7 @@ class Scene(MutableMapping[str, Object]):
         items: Items = self._contents.now()
         cells: list[Any] = [node_of(obj) for _, obj in items]
         known, self._bundles = self._bundles, {}
-        while len(cells) > 1 or cells and not isinstance(cells[0], Gathered):
+        while len(cells) > 1 or (cells and not isinstance(cells[0], Gathered)):
             cells = [self._gathered(known, tuple(cells[i : i + FAN])) for i in range(0, len(cells), FAN)]
         return Root(items, cells[0] if cells else None)
 
@@ -126,7 +126,7 @@ class Scene(MutableMapping[str, Object]):
         self._bundles[cells] = cell
         return cell
 
-    def _shown(self) -> "tuple[Root, Any]":
+    def _shown(self) -> "tuple[Root, Bundle]":
         root = self._root.now()
         return root, Bundle(()) if root.cell is None else root.cell.now()
 

@@ -120,12 +120,13 @@ class Table(Mapping[str, Callable[..., Any]]):
         >>> "intersect" in Table.of(spheres)
         True
         """
-        found: dict[str, Callable[..., Any]] = {}
+        found: dict[str, Any] = {}
         for name in METHODS:
             function = getattr(module, name, None)
             if inspect.isfunction(function):
                 found[name] = _renamed(function, renamed or {})
-        return cls(**{**found, **methods})
+        found.update(methods)
+        return cls(**found)
 
     def __getitem__(self, name: str) -> Callable[..., Any]:
         return self._methods[name]

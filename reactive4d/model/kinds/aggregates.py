@@ -30,12 +30,14 @@ OPERATIONS = {
 
 
 def _members(value: Any) -> tuple[tuple[str, Object], ...]:
-    pairs = value.items() if isinstance(value, Mapping) else value
+    given: Any = value
+    pairs: Any = given.items() if isinstance(value, Mapping) else given
     found: list[tuple[str, Object]] = []
     for i, pair in enumerate(pairs):
-        name, member = pair if isinstance(pair, tuple) and len(pair) == 2 else (f"member{i}", pair)  # pyright: ignore
+        one: Any = pair
+        name, member = one if isinstance(pair, tuple) and len(one) == 2 else (f"member{i}", one)
         if not isinstance(name, str) or not isinstance(member, Object):
-            raise ShapeError(f"members: expected names with objects, got {pair!r}")
+            raise ShapeError(f"members: expected names with objects, got {one!r}")
         found.append((name, member))
     if len({name for name, _ in found}) != len(found):
         raise ShapeError("members: a name stands twice")

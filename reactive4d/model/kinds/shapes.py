@@ -88,7 +88,7 @@ class Line(Object):
 
     table = Table(
         points=lambda start, stop, segments: flat(outlines.line(start, stop, segments=segments)),
-        lines=lambda segments: chain(np.empty(segments + 1)),
+        lines=lambda segments: chain(np.empty(int(segments + 1))),
     )
 
     def __init__(self, start: Any = None, stop: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -110,7 +110,7 @@ class Circle(Object):
 
     table = Table(
         points=lambda radius, segments: flat(outlines.circle(radius, segments=segments)),
-        lines=lambda segments: ring(np.empty(segments)),
+        lines=lambda segments: ring(np.empty(int(segments))),
     )
 
     def __init__(self, radius: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -146,7 +146,7 @@ class Ngon(Object):
 
     table = Table(
         points=lambda radius, sides: flat(outlines.polygon(radius, sides=sides)),
-        lines=lambda sides: ring(np.empty(sides)),
+        lines=lambda sides: ring(np.empty(int(sides))),
     )
 
     def __init__(self, radius: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -167,7 +167,7 @@ class Star(Object):
 
     table = Table(
         points=lambda radius, inner, tips: flat(outlines.star(radius, inner, tips=tips)),
-        lines=lambda tips: ring(np.empty(2 * tips)),
+        lines=lambda tips: ring(np.empty(int(2 * tips))),
     )
 
     def __init__(self, radius: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -191,7 +191,7 @@ class Helix(Object):
         points=lambda radius, height, turns, segments: flat(
             outlines.helix(radius, height, turns=turns, segments=segments)
         ),
-        lines=lambda segments: chain(np.empty(segments + 1)),
+        lines=lambda segments: chain(np.empty(int(segments + 1))),
     )
 
     def __init__(self, radius: Any = None, height: Any = None, *, color: Any = None, **settings: Any) -> None:
