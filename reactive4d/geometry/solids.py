@@ -8,8 +8,10 @@ Each face of a result remembers whence it came: `mesh` gives it the number of it
 so that the faces can keep their operand's paint.
 """
 
+import atexit
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast, final
+from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,6 +52,15 @@ class _Source(NamedTuple):
     has_normals: bool
     has_uv: bool
 
+_living: "WeakSet[Solid]" = WeakSet()
+
+
+@atexit.register
+def _leave() -> None:
+    """Let go of all bodies before the interpreter ends: manifold3d complains of those that outlive it."""
+    for one in list(_living):
+        object.__setattr__(one, "manifold", None)
+
 
 @final
 class Solid:
@@ -60,7 +71,7 @@ class Solid:
     <Solid of 1 surface>
     """
 
-    __slots__ = ("manifold", "nbytes", "operands", "sources")
+    __slots__ = ("__weakref__", "manifold", "nbytes", "operands", "sources")
 
     manifold: "Manifold"
     nbytes: int
@@ -73,6 +84,7 @@ class Solid:
         put(self, "sources", sources)
         put(self, "operands", operands)
         put(self, "nbytes", nbytes)
+        _living.add(self)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a solid is never changed: {name}")
