@@ -56,6 +56,7 @@ def store(
             if engine.owner is None and type(value) is not Failure:
                 cell.hit = (start, stop, segment.value, segment.stamp, None, None)
             return
+    table.sole = None
     if reads is not linked:
         if reads == linked:
             reads = linked
@@ -176,6 +177,7 @@ def stand(
     old: Content | None,
 ) -> None:
     """Find a segment in check as it was (or as an older content says) over the interval that its dependencies allow."""
+    table.sole = None
     lo, hi = max(lo, segment.lo), min(hi, segment.hi)
     if lo > segment.lo or hi < segment.hi:
         split(table, segment, lo, hi)
@@ -245,6 +247,7 @@ def table_for(cell: "Cell", axes: "dict[str, Axis]", point: "Point | None") -> T
     shelves = cell.shelves
     if shelves is None:
         shelves = cell.shelves = Shelves()
+        cell.sole = None
     names = tuple([axes[name] for name in sorted(axes)]) if len(axes) > 1 else tuple(axes.values())
     table = shelves.table(shelves.shelf(names), point, make=True)
     assert table is not None

@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from reactive4d.engine import hits
+from reactive4d.engine.express import refresh
 from reactive4d.engine.frames import DEPTH, LOCK, CycleFound, Hit, Suspended, Task, entered_twice, here, is_held
 from reactive4d.engine.peeks import peek, recheck
 from reactive4d.engine.walks import bring, cycle_error
@@ -46,6 +47,23 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
     with LOCK:
         if engine.epoch != frame.epoch:
             recheck(engine, frame)
+        sole = cell.sole
+        if (
+            sole is not None
+            and not sole[0].clean
+            and point is None
+            and frame.nested < 0.0
+            and cell.busy is None
+            and engine.owner is None
+            and not engine.logs
+            and len(me.stacks) < DEPTH
+            and refresh(engine, cell, t, me)
+        ):
+            if engine.epoch != frame.epoch:
+                recheck(engine, frame)
+            hit = cell.hit
+            if hit[0] <= t < hit[1] and hit[5] is None:
+                return hit
         hit = None if engine.owner is not None and engine.owner is not me else peek(engine, cell, t, point)
         if hit is None:
             if len(me.stacks) >= DEPTH:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import asks, edits, hits, naive
 from reactive4d.engine.answers import add_axes
-from reactive4d.engine.express import express
+from reactive4d.engine.express import refresh
 from reactive4d.engine.failures import Failure, raised
 from reactive4d.engine.frames import (
     LOCK,
@@ -23,6 +23,7 @@ from reactive4d.engine.frames import (
     Crowd,
     CycleFound,
     Hit,
+    Suspended,
     Task,
     entered_twice,
     here,
@@ -123,11 +124,14 @@ class Cell(Hits):
         if is_held():
             raise entered_twice(self.name)
         with LOCK:
-            if self.busy is None and engine.owner is None and t < INF:
+            if self.busy is None and engine.owner is None and not engine.logs and t < INF:
+                hits.attended += 1
                 try:
-                    done = express(engine, self, t + 0.0, None, here.me)
-                except CycleFound:
+                    done = refresh(engine, self, t + 0.0, here.me)
+                except (CycleFound, Suspended):
                     done = False  # the general way tells the path
+                finally:
+                    hits.attended -= 1
                 hit = self.hit
                 if done and hit[0] <= t < hit[1] and hit[5] is None:
                     self.hot = hit[:3]
@@ -191,14 +195,21 @@ class Cell(Hits):
     def now(self) -> Any:
         """The answer at the asker's own point; only inside of an evaluation."""
         frame = here.me.frame
+        if frame is not None:
+            lo, hi, value, stamp, _, axes = self.hit
+            if lo <= frame.lo and frame.hi <= hi and axes is None and frame.deps.setdefault(self, stamp) == stamp:
+                return value
+        return self._now(frame)
+
+    def _now(self, frame: Task | None) -> Any:
         if frame is None:
             error = EvaluationError(f"{self.name}.now() outside of an evaluation")
             raise hint(error, f"ask for an instant: {self.name}.at(t)")
-        t = frame.clock
+        if frame.naive is not None:
+            return naive.read(self, frame, frame.t, frame.point)
+        t = frame.t
         lo, hi, value, stamp, point, axes = self.hit
         if not (lo <= t < hi and (axes is None or point is frame.point)):
-            if frame.naive is not None:
-                return naive.read(self, frame, frame.t, frame.point)
             lo, hi, value, stamp, point, axes = asks.read(self, frame, t, frame.point)
         if lo > frame.lo:
             frame.lo = lo
@@ -418,6 +429,7 @@ def sealed(function: Callable[..., Any], name: str) -> Callable[..., Any]:
     """A function of values that may read nothing: what it reads could not be known to whoever asks for the answer."""
     guard = Task(Cell(name=name), math.nan, None, here.me, 0)
     guard.naive = naive.SEALED
+    guard.lo = math.nan
 
     def call(*values: Any) -> Any:
         me = here.me

@@ -5,6 +5,7 @@ from sys import float_info
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine.evictions import tables
+from reactive4d.engine.kinds import FORMULA
 from reactive4d.engine.links import Readers
 from reactive4d.engine.segments import ELSEWHERE, covering
 from reactive4d.engine.shelves import ShelfTable
@@ -39,6 +40,14 @@ def check(engine: "Engine", cells: "Iterable[Cell]") -> None:
     """Raise AssertionError where an invariant does not hold; the lock is held."""
     for cell in reached(cells):
         _check_hit(cell)
+        if cell.sole is not None:
+            segment, lo, hi, _, reads, is_formula = cell.sole
+            assert cell.segments == [segment], f"{cell.name} remembers more than {segment}"
+            assert cell.shelves is None, f"{cell.name} has answers by parameters"
+            assert (segment.lo, segment.hi) == (lo, hi), f"{cell.name}: {segment} is not [{lo}, {hi})"
+            assert segment.reads is reads, f"{cell.name}: {segment} read something else"
+            assert is_formula is (cell.kind == FORMULA), f"{cell.name} is something else by now"
+            assert reads is (cell.inputs if is_formula else cell.linked), f"{cell.name}: what it read is not linked"
         for table in tables(cell):
             if cell.shelves is not None and isinstance(table, ShelfTable):
                 cell.shelves.settle(table)

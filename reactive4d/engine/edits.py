@@ -83,6 +83,7 @@ def _apply(engine: "Engine", source: "Source", content: Any, stamps: Stamps, spa
     source.hit = NEVER
     source.hot = COLD
     source.warm = COOL
+    source.sole = None
     source.adopt()
     for lo, hi in spans:
         if engine.logs:
@@ -100,6 +101,8 @@ def transaction(engine: "Engine") -> Generator[None]:
     with LOCK:
         me = _enter(engine, "a transaction begins")
         outermost = engine.owner is None
+        if outermost:
+            engine.epoch += 1  # so that whoever runs a function meanwhile looks up
         engine.owner = me
         begun = len(engine.undo)
     try:

@@ -66,7 +66,7 @@ class Engine:
         self.logs: list[Log] = []
         self.hear: Callable[[Any], None] = self._tell_all
         self.stamp: Callable[[], int] = itertools.count(1).__next__
-        self.epoch = 0  # edits so far
+        self.epoch = 0  # edits so far, and whatever else everybody is to take note of
         self.clock = 0  # answers stored so far
         self.revivals = 0  # how often a source got old stamps back
         self.owner: Me | None = None  # of the open transaction
@@ -267,6 +267,7 @@ class Engine:
         if logs and logs[:1] != self.logs[:1]:
             logs[0].counted = len(logs[0].notes)
         self.logs = logs
+        self.epoch += 1  # so that whoever runs a function meanwhile looks up
         self.hear = logs[0].notes.append if len(logs) == 1 else self._tell_all
 
     def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:

@@ -257,6 +257,7 @@ def _evict(engine: "Engine", cell: "Cell", table: Table, segment: Segment) -> No
     i = table.segments.index(segment)
     del table.segments[i]
     del table.starts[i]
+    table.sole = None
     if cell.hit[0] < segment.hi and segment.lo < cell.hit[1]:
         cell.hit = NEVER
     cell.hot = COLD
@@ -284,7 +285,7 @@ def _let_go(engine: "Engine", cell: "Cell", table: Table, segment: Segment) -> N
                 break
             above.reads, above.stamps = spliced
             link(reader, above.reads)
-            reader.linked = None
+            reader.linked = reader.sole = None
 
 
 def _spliced(above: Segment, cell: "Cell", segment: Segment) -> tuple[tuple[Any, ...], tuple[int, ...]] | None:
@@ -324,7 +325,7 @@ def forget(engine: "Engine", cells: "Iterable[Cell] | None") -> None:
         if cell.kind >= 2:
             cell.hit, cell.hot, cell.warm = NEVER, COLD, COOL
         for table in tables(cell):
-            table.starts, table.segments = EMPTY, EMPTY
+            table.starts, table.segments, table.sole = EMPTY, EMPTY, None
         cell.shelves = None
         push(engine, cell, -INF, INF)
     engine.bytes = _count(engine)

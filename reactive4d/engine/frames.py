@@ -65,14 +65,19 @@ class CycleFound(BaseException):
 
 
 class Me:
-    """A thread: the task whose rule it runs, the walks that it has under way, one in another, and whom it waits for."""
+    """A thread: the task whose rule it runs, the walks that it has under way, one in another, and whom it waits for.
 
-    __slots__ = ("frame", "stacks", "waiting")
+    `spare` and `claims` are used again, since making objects is a good part of what a recomputed cell costs.
+    """
+
+    __slots__ = ("claims", "frame", "spare", "stacks", "waiting")
 
     def __init__(self) -> None:
         self.frame: Task | None = None
         self.stacks: list[list[Any]] = []
         self.waiting: Claim | None = None
+        self.spare: Task | None = None
+        self.claims: list[Claim] = []
 
 
 class _Here(threading.local):
@@ -117,12 +122,11 @@ class Task:
     __slots__ = (
         "axes",  # {name: Axis} that were read so far, or None
         "cell",
-        "clock",  # the time for which remembered answers may be read: nan where none may
         "deps",  # {cell or (cell, map, overrides): stamp} in the order of reading
         "epoch",  # the engine's count of edits when reading began
         "handed",  # the very `t` object that a rule with an argument was given
         "hi",
-        "lo",
+        "lo",  # nan where no remembered answer may be read
         "mapped",  # whether some dependency was read elsewhere in time
         "me",
         "naive",  # set in the frames of the naive evaluator, and where no read is allowed
@@ -137,7 +141,7 @@ class Task:
 
     def __init__(self, cell: "Cell", t: float, point: "Point | None", me: Me, epoch: int) -> None:
         self.cell = cell
-        self.t = self.clock = t
+        self.t = t
         self.point = point
         self.me = me
         self.epoch = epoch

@@ -42,57 +42,63 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
     """Mark everything that reads a cell over [lo, hi), directly or through others."""
     stack = [(cell, lo, hi)]
     walks: dict[Cell, tuple[int, float]] = {}
+    logs = engine.logs
     while stack:
         cell, lo, hi = stack.pop()
         readers = cell.readers
         if readers is None:
             continue
+        if type(readers) is not Readers:
+            # Along a chain, where each has one reader, at once to its end.
+            while True:
+                reader = readers()
+                if reader is None:
+                    cell.readers = None
+                    break
+                sole = reader.sole
+                if sole is None or logs:
+                    _push_here(engine, reader, lo, hi, stack)
+                    break
+                segment, start, stop, _, _, _ = sole
+                if start < lo or hi < stop:
+                    _push_here(engine, reader, lo, hi, stack)
+                    break
+                if not segment.clean:
+                    break
+                segment.clean = False
+                reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
+                readers = reader.readers
+                if readers is None:
+                    break
+                cell, lo, hi = reader, start, stop
+                if type(readers) is Readers:
+                    stack.append((cell, lo, hi))
+                    break
+            continue
         dead: list[Any] = []
-        entries = readers.items() if type(readers) is Readers else ((readers, None),)
-        for ref, maps in entries:
+        for ref, maps in readers.items():
             reader = ref()
             if reader is None:
                 dead.append(ref)
             elif maps is None:
-                _push_here(engine, reader, lo, hi, stack)
+                sole = reader.sole
+                if sole is None or sole[1] < lo or hi < sole[2] or logs:
+                    _push_here(engine, reader, lo, hi, stack)
+                elif sole[0].clean:
+                    sole[0].clean = False
+                    reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
+                    if reader.readers is not None:
+                        stack.append((reader, sole[1], sole[2]))
             else:
                 for a, b in preimages(maps, lo, hi):
                     _push_elsewhere(engine, reader, a, b, walks, stack)
         for ref in dead:
-            if type(readers) is Readers:
-                readers.pop(ref, None)
-            else:
-                cell.readers = None
+            readers.pop(ref, None)
 
 
 def _push_here(
     engine: "Engine", reader: "Cell", lo: float, hi: float, stack: "list[tuple[Cell, float, float]]"
 ) -> None:
-    """Mark a reader that reads at its own time; along a chain, where each has one reader, at once to its end."""
-    while True:
-        segments = reader.segments
-        if len(segments) != 1 or reader.shelves is not None:
-            break
-        segment = segments[0]
-        if not segment.clean:
-            return
-        if segment.lo < lo or hi < segment.hi:
-            break
-        segment.clean = False
-        reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
-        if engine.logs:
-            engine.emit("marked", reader, segment.lo, segment.hi)
-        readers = reader.readers
-        if readers is None:
-            return
-        lo, hi = segment.lo, segment.hi
-        if type(readers) is Readers:
-            stack.append((reader, lo, hi))
-            return
-        above = readers()
-        if above is None:
-            return
-        reader = above
     changed = mark(engine, reader, lo, hi)
     if changed is not None:
         stack.append((reader, *changed))

@@ -42,7 +42,7 @@ def _answer(cell: "Cell", t: float, point: "Point | None", parent: Task | None) 
     me = here.me
     task = Task(cell, t, point, me, 0)
     task.parent = parent
-    task.clock = nan
+    task.lo = nan
     task.naive = _Reads()
     outer = me.frame
     try:

@@ -9,15 +9,34 @@ Invariants, which `checks.check` verifies:
 """
 
 from bisect import bisect_right
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["ELSEWHERE", "EMPTY", "Content", "MappedReads", "Segment", "Table", "content", "covering", "flip", "split"]
+if TYPE_CHECKING:
+    from reactive4d.engine.cells import Cell
+
+__all__ = [
+    "ELSEWHERE",
+    "EMPTY",
+    "Content",
+    "MappedReads",
+    "Segment",
+    "Sole",
+    "Table",
+    "content",
+    "covering",
+    "flip",
+    "split",
+]
 
 INF = float("inf")
 EMPTY: Any = ()
 
 # The type of an entry that was read elsewhere, (cell, map, overrides); cells themselves are the other entries.
 ELSEWHERE: Any = tuple
+
+# The one answer that a cell remembers, where that read cells at its own time, and no parameter:
+# (segment, lo, hi, the cell that it read if it is one, all that it read, whether the cell is a formula).
+Sole = tuple["Segment", float, float, "Cell | None", tuple[Any, ...], bool]
 
 # value, stamp, reads, stamps of the reads
 Content = tuple[Any, int, tuple[Any, ...], tuple[int, ...]]
@@ -70,11 +89,12 @@ class Segment:
 class Table:
     """Segments sorted by start. A cell is the table of its answers that read no parameter."""
 
-    __slots__ = ("segments", "starts")
+    __slots__ = ("segments", "sole", "starts")
 
     def __init__(self) -> None:
         self.starts: list[float] = EMPTY
         self.segments: list[Segment] = EMPTY
+        self.sole: Sole | None = None  # of a cell; None where nobody has looked as well
 
 
 def content(segment: Segment) -> Content:
@@ -96,6 +116,7 @@ def covering(table: Table, t: float) -> Segment | None:
 
 def split(table: Table, segment: Segment, lo: float, hi: float) -> None:
     """Cut a segment so that it covers just [lo, hi); what it covered besides stays, in segments of their own."""
+    table.sole = None
     i = bisect_right(table.starts, segment.lo) - 1
     starts: list[float] = []
     parts: list[Segment] = []

@@ -71,13 +71,20 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                         elif _occupied(engine, cell, claim):
                             continue
                 fresh = None
-                kind = cell.kind
                 try:
-                    if point is None and express(engine, cell, t, claim, me):
-                        need = None
-                    elif engine.owner is not None and engine.owner is not me:
-                        continue  # a transaction began while the function ran
-                    elif kind == FORMULA:
+                    if (
+                        point is None
+                        and engine.owner is None
+                        and not engine.logs
+                        and (claim.kept is None or cell not in claim.kept)
+                    ):
+                        if express(engine, stack, t, claim, me):
+                            continue
+                        if engine.owner is not None and engine.owner is not me:
+                            continue  # a transaction began while a function ran
+                        cell = stack[-1]
+                    kind = cell.kind
+                    if kind == FORMULA:
                         need = formula(engine, cell, t, point, claim)
                     elif kind == COMPUTED:
                         need = rule(engine, cell, t, point, claim)
@@ -106,7 +113,7 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                     if busy is not None and (busy is claim or (type(busy) is Crowd and claim in busy)):
                         raise CycleFound(_path(me, wanted, t))
                     stack.append(wanted)
-                    fresh = _descend(wanted, t, claim, stack)
+                    fresh = wanted
                 else:
                     claim.restarts += 1
                     if claim.restarts == PATIENCE + 1:
@@ -131,25 +138,6 @@ def bring(engine: "Engine", root: "Cell", root_t: float, root_point: "Point | No
                 if claim.restarts > PATIENCE:
                     engine.patience -= 1
                     CHANGED.notify_all()
-
-
-def _descend(cell: "Cell", t: float, claim: Claim, stack: "list[Any]") -> "Cell":
-    """Go down a chain at once: where the first thing that was read is to be checked too, that comes first."""
-    if cell.kind < FORMULA or cell.busy is not None or cell.shelves is not None or len(cell.segments) != 1:
-        return cell
-    segment = cell.segments[0]
-    while not segment.clean and segment.lo <= t < segment.hi and segment.reads:
-        first = segment.reads[0]
-        if type(first) is tuple or first.kind < FORMULA or first.busy is not None or first.shelves is not None:
-            break
-        segments = first.segments
-        if len(segments) != 1 or segments[0].clean:
-            break
-        segment = segments[0]
-        cell.busy = claim
-        stack.append(first)
-        cell = first
-    return cell
 
 
 def _occupied(engine: "Engine", cell: "Cell", claim: Claim) -> bool:

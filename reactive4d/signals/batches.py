@@ -168,6 +168,7 @@ def _remember(cell: Cell, digest: bytes, ts: Any, point: Point | None, walk: "_W
         return
     if cell.shelves is None:
         cell.shelves = Shelves()
+        cell.sole = None
     axes = tuple(sorted(walk.axes, key=lambda axis: axis.name))
     key = _key(axes, point)
     kept = Remembered(value, float(ts.min()), float(ts.max()), axes, key)
