@@ -139,3 +139,14 @@ def test_a_ring_closes():
     volume = sum(float(np.sum(np.cross(b, c) * d)) for b, c, d in ((p, q, r), (p, r, s))) / 6.0
     area = around / 2.0 * 0.25 * math.sin(2.0 * math.pi / around)
     assert math.isclose(abs(volume), area * 10.0, rel_tol=1e-3)
+
+
+def test_limits_do_not_show_in_the_neighbours():
+    """What lies between the limits is bent alike to the bit, whether the rest of its block lies there too or not."""
+    points = np.random.default_rng(2).uniform(-1.0, 1.0, (4_000, 3)).astype(np.float32)
+    points[:20, ::2] = np.float32([[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] * 5)
+    inside = np.abs(points[:, 2]) < 0.5
+    for angle in (1.3, -1.3):
+        bend = Bend(angle, 0.3, lower=-0.5, upper=0.5)
+        among, alone = bend.map(points, (0.0, 0.0))[inside], bend.map(points[inside], (0.0, 0.0))
+        assert among.tobytes() == alone.tobytes()

@@ -81,15 +81,15 @@ class Bend(Step):
         if stretch is None:
             return None
         rate = self.angle / stretch.length
-        radius, half, anchor, lower, upper = scalars(
-            dtype, 1.0 / rate, 0.5 * rate, stretch.anchor, stretch.lower, stretch.upper
+        radius, half, anchor, lower, upper, zero = scalars(
+            dtype, 1.0 / rate, 0.5 * rate, stretch.anchor, stretch.lower, stretch.upper, 0.0
         )
 
         # Half angles: the height of a flat arc, radius · (1 - cos), would lose all its digits in float32, while
         # 2 · radius · sin² of half the angle keeps them.
-        def arc(x: Column, y: Column, z: Column, free: list[Column]) -> None:
-            sine, cosine, arm = free[0], free[1], free[2]
-            np.multiply(z, half, sine)
+        def curl(x: Column, z: Column, along: Column, free: list[Column]) -> None:
+            sine, cosine, arm = free[:3]
+            np.multiply(along, half, sine)
             np.cos(sine, cosine)
             np.sin(sine, sine)
             np.subtract(radius, x, arm)
@@ -99,33 +99,36 @@ class Bend(Step):
             np.multiply(arm, sine, arm)
             np.add(x, arm, x)
 
+        def arc(x: Column, y: Column, z: Column, free: list[Column]) -> None:
+            curl(x, z, z, free)
+
         def straight(x: Column, y: Column, z: Column, free: list[Column]) -> None:
-            sine, cosine, arm, over, whole = free[:5]
+            sine, cosine, _, over = free[:4]
             z.clip(lower, upper, sine)
             np.subtract(z, sine, over)
-            np.subtract(sine, anchor, sine)
-            np.multiply(sine, half, sine)
-            np.cos(sine, cosine)
-            np.sin(sine, sine)
-            np.subtract(radius, x, arm)
+            if stretch.anchor:
+                np.subtract(sine, anchor, sine)
+            curl(x, z, sine, free)
             np.multiply(cosine, sine, cosine)
             np.add(cosine, cosine, cosine)  # the sine of the whole angle
             np.multiply(sine, sine, sine)
             np.add(sine, sine, sine)  # 1 - its cosine
-            np.multiply(arm, cosine, z)
-            np.multiply(over, sine, whole)
-            np.subtract(over, whole, whole)
-            np.add(z, whole, z)
-            np.add(z, anchor, z)
-            np.multiply(arm, sine, arm)
-            np.add(x, arm, x)
+            np.multiply(over, sine, sine)
+            np.subtract(over, sine, sine)
+            np.add(z, sine, z)
+            if stretch.anchor:
+                np.add(z, anchor, z)
             np.multiply(over, cosine, over)
             np.add(x, over, x)
+            np.add(x, zero, x)
 
         def limited(x: Column, y: Column, z: Column, free: list[Column]) -> None:
-            # Many a block lies between the limits as a whole.
+            # Many a block lies between the limits as a whole. What it answers is what `straight` would, to the bit:
+            # a point's neighbours must not be seen, nor may welded points part. So no zero keeps a sign.
             if not stretch.anchor and len(z) and z.min() >= stretch.lower and z.max() <= stretch.upper:
                 arc(x, y, z, free)
+                np.add(x, zero, x)
+                np.add(z, zero, z)
             else:
                 straight(x, y, z, free)
 

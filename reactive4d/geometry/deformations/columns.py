@@ -6,9 +6,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .limits import Column, Extent
+from .limits import Column
 
-__all__ = ["Operation", "carry", "image"]
+__all__ = ["Operation", "carry", "lone"]
 
 # Takes the three columns and the free scratch columns of a block, and leaves both lists as they stand afterwards.
 Operation: TypeAlias = Callable[[list[Column], list[Column]], object]
@@ -74,17 +74,11 @@ def _sum(columns: list[Column], terms: _Terms, offset: Column | None, total: Col
     return total
 
 
-def image(row: list[float], known: list[Extent | None]) -> Extent | None:
-    """The extent of row · (x, y, z, 1), if it follows from the known extent of one of the columns alone.
+def lone(row: list[float]) -> int | None:
+    """The place of the one coordinate on which row · (x, y, z, 1) depends; None if there is none, or another.
 
-    >>> image([0.0, -2.0, 0.0, 1.0], [None, (0.0, 3.0), None])
-    (-5.0, 1.0)
+    >>> lone([0.0, -2.0, 0.0, 1.0]), lone([1.0, -2.0, 0.0, 1.0])
+    (1, None)
     """
     places = [place for place in range(3) if row[place]]
-    if len(places) != 1:
-        return None
-    extent = known[places[0]]
-    if extent is None:
-        return None
-    a, b = row[places[0]] * extent[0] + row[3], row[places[0]] * extent[1] + row[3]
-    return (a, b) if a <= b else (b, a)
+    return places[0] if len(places) == 1 else None

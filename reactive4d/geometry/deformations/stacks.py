@@ -1,14 +1,17 @@
 """A stack of deformations in one go: large meshes in blocks that stay in the cache through all steps.
 
 Points come as rows, and deformations want columns: each block of rows is turned into three columns, goes through all
-matrices and steps, and is turned back. A step whose rate depends on how far the points reach has to wait for all of
-them; unless what is known of them before, through steps that keep the coordinate along its axis, tells. While it
-waits, the columns of a block lie where its rows will be.
+steps, and is turned back. Each step has its own way into its frame and back, so that a stack answers what its steps
+would one after the other, to the bit.
+
+A step whose rate depends on how far the points reach has to wait for all of them; unless what is known of them before
+tells. Through steps that keep a coordinate, and matrices that only scale and shift it, its least and its greatest value
+go as every value goes: rounding keeps the order. While a step waits, the columns of a block lie where its rows will be.
 """
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +20,18 @@ from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.transforms import IDENTITY, Matrix, inverse
 
-from .columns import Operation, carry, image
+from .columns import Operation, carry, lone
 from .limits import Column, Extent
 from .steps import FREE, Kernel, Step
 
-__all__ = ["deform", "measured"]
+__all__ = ["Maker", "carried", "deform", "deform_each", "measured", "origin_after"]
+
+# Makes a step for an object whose origin, (3,) float64, is there when it acts.
+Maker: TypeAlias = Callable[[NDArray[np.float64]], Step]
 
 _BLOCK = 24_576  # Points: the six or so columns of float32 that are in use together fit in a second cache of 1 MB.
+_IDENTITY = IDENTITY.tobytes()
+_UNKNOWN = (math.nan, math.nan)
 
 
 def deform(
@@ -36,6 +44,8 @@ def deform(
     weights: NDArray[np.float32] | None = None,
 ) -> NDArray[Any]:
     """Carries points through a matrix, then through deformations one after the other, then through a matrix.
+
+    It is what `transform_points` and the `map` of each step with its own `extent` answer, to the bit, but faster.
 
     Args:
         points: (V, 3), float32; float64 is worked on in float64, and anything else becomes float64.
@@ -60,42 +70,72 @@ def deform(
     array([[ 1.,  0.,  5.],
            [-1.,  0.,  6.]], dtype=float32)
     """
-    rows = _rows(points)
-    if weights is not None and weights.shape != rows.shape[:1]:
-        raise ShapeError(f"weights: expected {rows.shape[:1]}, got an array of shape {weights.shape}")
-    run = _Run(rows, weights)
-    matrix = IDENTITY if before is None else before  # From the columns to the space of the points.
-    known: list[Extent | None] = [None, None, None]
+    run = _Run(points, weights)
+    if before is not None:
+        run.carry(before)
     for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
-        space = step.space
-        way = IDENTITY if space.tobytes() == matrix.tobytes() else inverse(space).dot(matrix)
-        entered = False
-        extent = given
-        if extent is None:
-            extent = (0.0, 0.0)
-            if step.needs_extent:
-                found = image(way[2].tolist(), known)
-                if found is None and run.is_fresh:
-                    found = measured(rows, way[2].tolist())
-                elif found is None:
-                    run.add(carry(way, rows.dtype))
-                    found = run.wait()
-                    known = [None, None, found]
-                    matrix, entered = space, True
-                extent = found
-        kernel = step.bind(extent, rows.dtype)
-        if kernel is None:
-            continue
-        if not entered:
-            run.add(carry(way, rows.dtype))
-            known = [image(row, known) for row in way[:3].tolist()]
-            if step.needs_extent and given is None:
-                known[2] = extent
-            matrix = space
-        run.add_kernel(kernel)
-        known = [one if kept else None for one, kept in zip(known, step.keeps, strict=True)]
-    run.add(carry(matrix if after is None else after.dot(matrix), rows.dtype))
+        run.go(step, given)
+    if after is not None:
+        run.carry(after)
     return run.finish()
+
+
+def deform_each(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[np.float64]) -> NDArray[Any]:
+    """Carries points through deformations that are made on the way, each when it is known where the origin is by then.
+
+    Args:
+        points: (V, 3), as in `deform`.
+        makers: of one step each; a step carries the origin along as it carries the points.
+        origin: (3,), where the object's origin is before.
+
+    Returns:
+        (V, 3), as `deform` of these steps.
+
+    Raises:
+        ShapeError: as `deform`.
+
+    >>> from reactive4d.geometry.deformations.skews import Skew
+    >>> from reactive4d.geometry.deformations.waves import Wave
+    >>> bar = np.float32([[0, 0, 0], [0, 0, 4]])
+    >>> makers = [lambda origin: Skew(1.0), lambda origin: Wave(0.5, 4.0, center=origin)]
+    >>> deform_each(bar, makers, np.array((0.0, 0.0, 4.0))).round(4)
+    array([[ 0. ,  0. , -0.5],
+           [ 1. ,  0. ,  4. ]], dtype=float32)
+    """
+    run = _Run(points, None)
+    for number, make in enumerate(makers):
+        step = make(origin)
+        extent = run.go(step)
+        if number + 1 < len(makers):
+            origin = carried(step, origin, extent)
+    return run.finish()
+
+
+def origin_after(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where the origin is after the deformations of `deform_each`: the points count only as far as steps measure them.
+
+    >>> from reactive4d.geometry.deformations.skews import Skew
+    >>> bar = np.float32([[0, 0, 0], [0, 0, 4]])
+    >>> origin_after(bar, [lambda origin: Skew(1.0)] * 2, np.array((0.0, 0.0, 4.0)))
+    array([2., 0., 4.])
+    """
+    run = _Run(points, None)
+    for make in makers:
+        step = make(origin)
+        origin = carried(step, origin, run.go(step))
+    return origin
+
+
+def carried(step: Step, origin: NDArray[np.float64], extent: Extent) -> NDArray[np.float64]:
+    """One point (3,) as a step with this extent leaves it, frozen.
+
+    >>> from reactive4d.geometry.deformations.skews import Skew
+    >>> carried(Skew(1.0), np.array((0.0, 0.0, 4.0)), (0.0, 4.0))
+    array([1., 0., 4.])
+    """
+    point = step.map(origin.reshape(1, 3), extent)[0].copy()
+    point.setflags(write=False)
+    return point
 
 
 def measured(points: NDArray[Any], row: list[float]) -> Extent:
@@ -105,27 +145,16 @@ def measured(points: NDArray[Any], row: list[float]) -> Extent:
     (5.0, 11.0)
     """
     rows = _rows(points)
-    if not len(rows):
-        return 0.0, 0.0
-    factors = [(place, np.array(factor, rows.dtype)) for place, factor in enumerate(row[:3]) if factor]
-    least, most = math.inf, -math.inf
+    return _measured(rows, _Gauge(row, rows.dtype)).extent
+
+
+def _measured(rows: NDArray[Any], gauge: "_Gauge") -> "_Gauge":
     scratch = np.empty((2, min(_BLOCK, len(rows))), rows.dtype)
     for start in range(0, len(rows), _BLOCK):
         block = rows[start : start + _BLOCK]
         value, term = scratch[:, : len(block)]
-        if not factors:
-            value[...] = 0.0
-        for number, (place, factor) in enumerate(factors):
-            if len(factors) == 1:
-                np.copyto(value, block[:, place])
-            else:
-                np.multiply(block[:, place], factor, term if number else value)
-                if number:
-                    np.add(value, term, value)
-        least, most = min(least, value.min().item()), max(most, value.max().item())
-    if len(factors) == 1:
-        least, most = sorted((row[factors[0][0]] * least, row[factors[0][0]] * most))
-    return least + row[3], most + row[3]
+        gauge.add(block.T, value, term)
+    return gauge
 
 
 def _rows(points: NDArray[Any]) -> NDArray[Any]:
@@ -137,44 +166,115 @@ def _rows(points: NDArray[Any]) -> NDArray[Any]:
     return points
 
 
+class _Gauge:
+    """The least and the greatest value of row · (x, y, z, 1) over the blocks so far."""
+
+    __slots__ = ("_factors", "_row", "least", "most", "place")
+
+    def __init__(self, row: list[float], dtype: Any) -> None:
+        self._row = row
+        self._factors = [(place, np.array(factor, dtype)) for place, factor in enumerate(row[:3]) if factor]
+        # Of one coordinate alone it is the least and the greatest of this, and all else can wait.
+        self.place = lone(row)
+        self.least, self.most = math.inf, -math.inf
+
+    def add(self, columns: Any, value: Column, term: Column) -> None:
+        """Look at the columns (3, n) of a block; the others are to work in."""
+        if self.place is not None:
+            np.copyto(value, columns[self.place])
+        elif not self._factors:
+            value[...] = 0.0
+        else:
+            for number, (place, factor) in enumerate(self._factors):
+                np.multiply(columns[place], factor, term if number else value)
+                if number:
+                    np.add(value, term, value)
+        self.least, self.most = min(self.least, value.min().item()), max(self.most, value.max().item())
+
+    @property
+    def extent(self) -> Extent:
+        least, most, shift = self.least, self.most, self._row[3] + 0.0
+        if least > most:
+            return 0.0, 0.0
+        if self.place is not None:
+            factor = self._row[self.place]
+            least, most = sorted((factor * least, factor * most))
+        return least + shift + 0.0, most + shift + 0.0  # Which of two zeros is the least one, nobody knows.
+
+
 class _Run:
-    """The operations that wait to be done on every block, and where the blocks are now."""
+    """The operations that wait to be done on every block, where the blocks are now, and what is known of them."""
 
-    __slots__ = ("_is_split", "_operations", "_out", "_rows", "_weights")
+    __slots__ = ("_is_split", "_known", "_operations", "_out", "_rows", "_weights")
 
-    def __init__(self, rows: NDArray[Any], weights: NDArray[np.float32] | None) -> None:
-        self._rows = rows
+    def __init__(self, points: NDArray[Any], weights: NDArray[np.float32] | None) -> None:
+        self._rows = _rows(points)
+        if weights is not None and weights.shape != self._rows.shape[:1]:
+            raise ShapeError(f"weights: expected {self._rows.shape[:1]}, got an array of shape {weights.shape}")
         self._weights = weights
         self._out: NDArray[Any] | None = None
         self._is_split = False  # Whether the blocks of `_out` hold columns.
         self._operations: list[tuple[Operation | None, Kernel | None]] = []
+        # The least and the greatest x, y, z, where all operations are done; nan where they are not known.
+        self._known = np.full((3, 2), math.nan, self._rows.dtype)
 
     @property
-    def is_fresh(self) -> bool:
+    def _is_fresh(self) -> bool:
         return not self._operations and not self._is_split
 
-    def add(self, operation: Operation | None) -> None:
-        if operation is not None:
-            self._operations.append((operation, None))
+    def carry(self, matrix: Matrix) -> None:
+        """Go through a matrix."""
+        operation = carry(matrix, self._rows.dtype)
+        if operation is None:
+            return
+        self._operations.append((operation, None))
+        ends = [*self._known.copy()]
+        operation(ends, [*np.empty((FREE, 2), self._rows.dtype)])
+        for place, row in enumerate(matrix[:3].tolist()):
+            self._known[place] = _UNKNOWN if lone(row) is None else np.sort(ends[place])  # Any nan comes last.
 
-    def add_kernel(self, kernel: Kernel) -> None:
-        self._operations.append((None, kernel))
+    def go(self, step: Step, given: Extent | None = None) -> Extent:
+        """Go through a step, and say with which extent: the one that is given, else the points'."""
+        space = step.space
+        back = IDENTITY if space.tobytes() == _IDENTITY else inverse(space)
+        extent = given
+        if extent is None:
+            extent = self._extent(back[2].tolist()) if step.needs_extent else (0.0, 0.0)
+        kernel = step.bind(extent, self._rows.dtype)
+        if kernel is not None:
+            self.carry(back)
+            self._operations.append((None, kernel))
+            for place, is_kept in enumerate(step.keeps):
+                if not is_kept:
+                    self._known[place] = _UNKNOWN
+            self.carry(space)
+        return extent
 
-    def wait(self) -> Extent:
-        """Do all operations, and say how far the points reach along z."""
-        return self._pass(is_last=False)
+    def _extent(self, row: list[float]) -> Extent:
+        gauge = _Gauge(row, self._rows.dtype)
+        place = gauge.place
+        if place is not None and not math.isnan(self._known[place, 1]):
+            gauge.least, gauge.most = self._known[place].tolist()
+        elif self._is_fresh:
+            _measured(self._rows, gauge)
+        else:
+            self._pass(gauge)
+        if place is not None and gauge.least <= gauge.most:
+            self._known[place] = gauge.least, gauge.most
+        return gauge.extent
 
     def finish(self) -> NDArray[Any]:
         """Do all operations, and put the points together again."""
-        if self.is_fresh:
+        if self._is_fresh:
             rows = self._rows
             return rows if not rows.flags.writeable and rows.base is None else freeze(rows.copy())
-        self._pass(is_last=True)
+        self._pass(None)
         assert self._out is not None
         self._out.setflags(write=False)
         return self._out
 
-    def _pass(self, *, is_last: bool) -> Extent:
+    def _pass(self, gauge: _Gauge | None) -> None:
+        """Do all operations, and either look how far the points reach, or put them together."""
         rows = self._rows
         if self._out is None:
             self._out = np.empty(rows.shape, rows.dtype)
@@ -182,7 +282,6 @@ class _Run:
         length = min(_BLOCK, len(rows))
         width = 3 + FREE + (0 if self._weights is None else 3)
         scratch = np.empty((width, length), rows.dtype)
-        least, most = math.inf, -math.inf
         for start in range(0, len(rows), _BLOCK):
             stop = min(start + _BLOCK, len(rows))
             work = scratch[:, : stop - start]
@@ -197,17 +296,16 @@ class _Run:
                     kernel(columns[0], columns[1], columns[2], free)
                 elif kernel is not None and self._weights is not None:
                     _mix(kernel, columns, free, spare=spare, weights=self._weights[start:stop])
-            if is_last:
+            if gauge is None:
                 block = self._out[start:stop]
                 for place in range(3):
                     block[:, place] = columns[place]
             else:
                 for place in range(3):
                     together[place] = columns[place]
-                least, most = min(least, columns[2].min().item()), max(most, columns[2].max().item())
+                gauge.add(columns, free[0], free[1])
         self._operations.clear()
-        self._is_split = not is_last
-        return (least, most) if len(rows) else (0.0, 0.0)
+        self._is_split = gauge is not None
 
 
 def _mix(
