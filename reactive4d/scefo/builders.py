@@ -13,14 +13,13 @@ from reactive4d.scefo.drafts import (
     wrong,
 )
 from reactive4d.scefo.notes import behind
+from reactive4d.scefo.precedences import arithmetic, logic
 from reactive4d.scefo.tokens import Token
 from reactive4d.scefo.trees import (
     NO_NOTES,
     Attribute,
-    Binary,
     Boolean,
     Call,
-    Chain,
     Change,
     Constant,
     Create,
@@ -44,7 +43,6 @@ from reactive4d.scefo.trees import (
     Statement,
     Template,
     Text,
-    Unary,
     Use,
 )
 
@@ -259,21 +257,13 @@ class Builder:
         """A value by its name."""
         return self.name(parts), parts[1]
 
-    def chain(self, parts: list[Any]) -> Chain:
-        """Operands joined from the left."""
-        return Chain(tuple(parts[::2]), tuple([token.text for token in parts[1::2]]), at=parts[0].at)
+    def arithmetic(self, parts: list[Any]) -> Expression:
+        """A row of operands with signs and operators."""
+        return arithmetic(parts)
 
-    def unary(self, parts: list[Any]) -> Expression:
-        """An operator before its operand; a minus before a number is a part of it."""
-        token, operand = parts
-        if token.type == "MINUS" and isinstance(operand, Number) and not repr(operand.value).startswith("-"):
-            return Number(-operand.value, at=token.at)
-        return Unary(token.text, operand, at=token.at)
-
-    def binary(self, parts: list[Any]) -> Binary:
-        """A power or a comparison."""
-        left, token, right = parts
-        return Binary(token.text, left, right, at=left.at)
+    def logic(self, parts: list[Any]) -> Expression:
+        """A row of comparisons and conditions."""
+        return logic(parts)
 
     def component(self, parts: list[Any]) -> Index:
         """A component."""

@@ -214,6 +214,7 @@ def test_lines_end_in_any_way() -> None:
         ("object (a) sphere, <0, 1>;", 1, 20, "expected a name before keys"),
         ("change (a) use b, <0, 1>;", 1, 19, "a change that is used once more takes no values"),
         ("signal (a) <0, 1> by bspline(2.0);", 1, 30, "the degree of a curve is a whole number"),
+        ("signal (a) (a < b < c);", 1, 19, "a second comparison, '<'"),
         ("hidden change (a) b;", 1, 8, "expected 'object', 'read' or 'template', got 'change'"),
     ],
 )
