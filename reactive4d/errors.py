@@ -148,7 +148,7 @@ class ScriptError(Reactive4dError):
     ...     "expected ',' or ';', got '='", file="scene.scefo", line=12, column=8, expected=("','", "';'")
     ... )
     >>> str(error), error.line, error.column
-    ("a.scefo:12:8: expected ',' or ';', got '='", 12, 8)
+    ("scene.scefo:12:8: expected ',' or ';', got '='", 12, 8)
     """
 
     def __init__(
