@@ -33,8 +33,8 @@ NUMBER = CONTENT + 24  # bytes of an older content that is a number
 acquire, release = LOCK.acquire, LOCK.release
 
 # How far a cell on the stack has come: the cell, which one it waits for, the stamp that that one had, those that come
-# then with their stamps, the values and the stamps so far.
-Begun = tuple["Cell", "Cell", int, Any, list[Any], list[int]]
+# then with their stamps, the values and the stamps so far, and whether one of these is not what it was.
+Begun = tuple["Cell", "Cell", int, Any, list[Any], list[int], bool]
 
 
 def refresh(engine: "Engine", cell: "Cell", t: float, me: Me) -> bool:
@@ -110,14 +110,14 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
         else:
             below = None
             if begun and begun[-1][0] is cell:
-                _, source, known, rest, values, stamps = begun[-1]
+                _, source, known, rest, values, stamps, changed = begun[-1]
                 hit = _found(engine, source, t, start, stop)
                 if hit is None:
                     break
                 begun.pop()
                 values.append(hit[2])
                 stamps.append(hit[3])
-                changed = hit[3] != known
+                changed = changed or hit[3] != known
             else:
                 rest, values, stamps = zip(reads, segment.stamps, strict=True), [], []
                 changed = False
@@ -132,7 +132,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                             and not below[0].clean
                             and below[1] <= t < below[2]
                         ):
-                            begun.append((cell, source, known, rest, values, stamps))
+                            begun.append((cell, source, known, rest, values, stamps, changed))
                             cell, sole = source, below
                             cell.busy = claim
                             stack.append(cell)
@@ -140,7 +140,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                         below = None
                         hit = _found(engine, source, t, start, stop)
                         if hit is None:
-                            begun.append((cell, source, known, rest, values, stamps))
+                            begun.append((cell, source, known, rest, values, stamps, changed))
                             _hand_over(engine, claim, begun)
                             return False
                         value, stamp = hit[2], hit[3]
@@ -318,7 +318,7 @@ def _found(engine: "Engine", source: "Cell", t: float, start: float, stop: float
 
 def _hand_over(engine: "Engine", claim: Claim, begun: list[Begun]) -> None:
     """Let the general way go on from where cells with many inputs have come."""
-    for cell, _, _, _, values, stamps in begun:
+    for cell, _, _, _, values, stamps, _ in begun:
         sole = cell.sole
         if sole is None or len(stamps) <= FEW:
             continue

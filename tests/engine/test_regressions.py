@@ -338,3 +338,18 @@ def test_what_was_computed_and_is_set_now_says_what_was_set(cached: Case) -> Non
     assert cached.ask(x) == 1.0
     x.set_content(2.0)
     assert [cached.ask(x, t) for t in (0.0, 1.0)] == [2.0, 2.0]
+
+
+def test_what_changed_before_an_input_that_has_to_be_answered_first_counts(cached: Case) -> None:
+    """
+    X reads s, which was set, and then `low`, which has to look at s again and says what it said.
+
+        s --> low --> x
+        s ----------> x
+    """
+    s = cached.source(1.0)
+    low = cached.formula("low", lambda v: min(v, 0.0), s)
+    x = cached.formula("x", lambda v, w: (v, w), s, low)
+    assert cached.ask(x) == (1.0, 0.0)
+    s.set_content(2.0)
+    assert cached.ask(x) == (2.0, 0.0)
