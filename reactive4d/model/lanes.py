@@ -4,8 +4,9 @@ Its content is a tuple of items in the order of their places. An item is an `Ent
 one, whose change acts for a while only, or an `Idle` one, whose change is disabled. Idle items concern nobody, so
 enabling a change again brings an earlier content back, and with it all that was remembered.
 
-Where steps say when a change acts, the item has their spans: outside of them nobody needs to hear of the change, nor to
-read its gate. So whatever edits the steps refreshes the items too.
+What it says at a time are the entries that act then, and the gated ones of which that is not known. Where steps say
+when a change acts, the item has their spans: nobody has to read its gate, so whatever edits the steps refreshes the
+items.
 """
 
 from bisect import bisect_left
@@ -72,7 +73,7 @@ def entry_of(item: Item) -> Entry:
 class Entries(Signal[Items], Source):
     """Some entries of one object."""
 
-    __slots__ = ("lane", "object")
+    __slots__ = ("is_plain", "lane", "object")
 
     lane: "Lane"
 
@@ -80,6 +81,7 @@ class Entries(Signal[Items], Source):
         self.object = obj
         self.lane = lane
         super().__init__(content, name="")
+        self.adopt()
 
     @property
     def name(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -89,6 +91,32 @@ class Entries(Signal[Items], Source):
     @name.setter
     def name(self, value: str) -> None:
         pass
+
+    def adopt(self) -> None:
+        """Know whether all entries act always."""
+        self.is_plain = all(type(x) is Entry for x in self.content)
+
+    def sample(self, t: float) -> tuple[float, float, Items]:
+        """The entries that act, and those of which their gates will tell."""
+        if self.is_plain:
+            return -INF, INF, self.content
+        lo, hi = -INF, INF
+        found: list[Item] = []
+        for x in self.content:
+            spans = _acts(x)
+            if spans is None:
+                found.append(x)
+                continue
+            for start, stop in spans:
+                if t < start:
+                    hi = min(hi, start)
+                    break
+                if t < stop:
+                    lo, hi = max(lo, start), min(hi, stop)
+                    found.append(entry_of(x))
+                    break
+                lo = max(lo, stop)
+        return lo, hi, tuple(found)
 
     def refers(self, content: Items) -> bool:
         """What is idle is no news to readers, but has to be kept."""
