@@ -21,7 +21,13 @@ NO_MEMBERS: Mapping[str, "Node"] = MappingProxyType({})
 
 
 class Lines:
-    """Lines through points: what is drawn of a path."""
+    """Lines through points: what is drawn of a path.
+
+    >>> import reactive4d as r4
+    >>> frame = r4.Scene(way=r4.Path([(0, 0, 0), (1, 0, 0)], samples=8)).at(0.0)
+    >>> frame["way"].drawn
+    Lines(9 points)
+    """
 
     __slots__ = ("points",)
 
@@ -52,6 +58,12 @@ class Node:
         color: (4,), sRGB and alpha from 0 to 1.
         visible: whether it is drawn.
         members: the nodes of a group's members, by name.
+
+    >>> import reactive4d as r4
+    >>> scene = r4.Scene(ball=r4.Sphere(color="red", opacity=0.5))
+    >>> node = scene.at(0.0)["ball"]
+    >>> node.kind, node.opacity, node.visible
+    ('sphere', 0.5, True)
     """
 
     __slots__ = ("color", "drawn", "kind", "matrix", "members", "visible")

@@ -18,7 +18,15 @@ MOST = 1_000_000
 
 
 class Outline(Setting[Array]):
-    """Points, (N, 2) or (N, 3), or an object whose outline they are, or a signal of either."""
+    """Points, (N, 2) or (N, 3), or an object whose outline they are, or a signal of either.
+
+    >>> import reactive4d as r4
+    >>> class Fence(r4.Object):
+    ...     course = r4.Outline(((0, 0), (1, 0)))
+    >>> fence = Fence(course=r4.Ngon(1.0, sides=3))
+    >>> fence.course.at(0.0).shape
+    (3, 3)
+    """
 
     def __init__(self, default: Any = None, *, fewest: int = 2, doc: str = "") -> None:
         self.fewest = fewest
@@ -56,7 +64,15 @@ class Outline(Setting[Array]):
 
 
 class Outlines(Setting[tuple[Array, ...]]):
-    """Several outlines: a list of objects with outlines, of points, or of signals."""
+    """Several outlines: a list of objects with outlines, of points, or of signals.
+
+    >>> import reactive4d as r4
+    >>> class Atlas(r4.Object):
+    ...     lands = r4.Outlines((((0, 0), (1, 0), (0, 1)),))
+    >>> atlas = Atlas(lands=[r4.Ngon(1.0, sides=5), [(0, 0), (1, 0), (1, 1)]])
+    >>> [len(land) for land in atlas.lands.at(0.0)]
+    [5, 3]
+    """
 
     def __init__(self, default: Any = None, *, fewest: int = 1, doc: str = "") -> None:
         self.fewest = fewest

@@ -429,6 +429,12 @@ class Held(Setting[Any]):
 
     Args:
         accept: refuses a value by raising, and returns it as it is kept.
+
+    >>> import reactive4d as r4
+    >>> class Shelf(r4.Object):
+    ...     books = r4.Held(())
+    >>> Shelf(books=["atlas", ["novel", 1927]]).books.at(0.0)
+    ('atlas', ('novel', 1927))
     """
 
     def __init__(self, default: Any = None, *, accept: Callable[[Any], Any] | None = None, doc: str = "") -> None:
@@ -461,8 +467,20 @@ class Reference(Setting[Any]):
     """Another object, or a signal that answers objects.
 
     Args:
-        kind: how an object it refers to must be, in words, for errors.
         channel: what is read of it. Empty: the object itself is the value.
+
+    >>> import reactive4d as r4
+    >>> class Follow(r4.Transform):
+    ...     leader = r4.Reference(channel="matrix")
+    ...
+    ...     @staticmethod
+    ...     def matrix(leader):
+    ...         return leader
+    >>> fox, hound = r4.Sphere(), r4.Sphere()
+    >>> _ = hound.apply(Follow(fox))
+    >>> _ = fox.translate((1, 0, 0))
+    >>> hound.position.at(0.0)
+    array([1., 0., 0.])
     """
 
     def __init__(self, default: Any = None, *, channel: str = "", doc: str = "") -> None:
