@@ -305,6 +305,21 @@ class Transform(Change):
 
     Its function `matrix` answers (4, 4). It may want, besides the change's attributes, `before`, the matrix so far, and
     `position`, where the object's origin is.
+
+    >>> import reactive4d as r4
+    >>> import numpy as np
+    >>> class Bounce(r4.Transform):
+    ...     height = r4.Float(unit="m")
+    ...
+    ...     @staticmethod
+    ...     def matrix(height):
+    ...         matrix = np.eye(4)
+    ...         matrix[2, 3] = abs(height)
+    ...         return matrix
+    >>> ball = r4.Sphere()
+    >>> bounce = ball.apply(Bounce(np.sin(r4.time)))
+    >>> ball.position.at(-np.pi / 2)
+    array([0., 0., 1.])
     """
 
     __slots__ = ()
@@ -318,6 +333,20 @@ class Deformation(Change):
 
     Its function `deform` answers points, (V, 3) like the `points` that it wants; it works on each point alone, so that
     it carries the object's origin along as one more. It may also want `position`, where the origin is before it.
+
+    >>> import reactive4d as r4
+    >>> import numpy as np
+    >>> class Inflate(r4.Deformation):
+    ...     by = r4.Float(unit="m")
+    ...
+    ...     @staticmethod
+    ...     def deform(points, position, by):
+    ...         away = points - position
+    ...         return points + by * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
+    >>> ball = r4.Sphere(radius=1)
+    >>> _ = ball.apply(Inflate(r4.keys({0: 0.0, 1: 2.0})))
+    >>> ball.bounds.at(1.0)[1].round(6)
+    array([3., 3., 3.])
     """
 
     __slots__ = ()
@@ -331,6 +360,16 @@ class Reshape(Change):
     """A change that makes a new surface of what it finds: points, faces, uv and weld at once.
 
     Its function `surface` answers a `Mesh`. It may want `points`, `lines`, `faces`, `uv`, `weld` and `position`.
+
+    >>> import reactive4d as r4
+    >>> class Fan(r4.Reshape):
+    ...     @staticmethod
+    ...     def surface(points):
+    ...         return r4.Mesh(points, [(0, i, i + 1) for i in range(1, len(points) - 1)])
+    >>> plate = r4.Rectangle((2, 3))
+    >>> _ = plate.apply(Fan())
+    >>> plate.area.at(0.0)
+    6.0
     """
 
     __slots__ = ()
@@ -345,6 +384,18 @@ class Coloring(Change):
 
     `color` (4,), `opacity`, `ambient`, `diffuse`, `specular`, `shininess`, `texture` and so on. It may want `color`,
     the colour so far.
+
+    >>> import reactive4d as r4
+    >>> class Dim(r4.Coloring):
+    ...     by = r4.Float(low=0, high=1)
+    ...
+    ...     @staticmethod
+    ...     def paint(color, by):
+    ...         return {"color": color * [1 - by, 1 - by, 1 - by, 1]}
+    >>> ball = r4.Sphere(color="red")
+    >>> _ = ball.apply(Dim(0.5))
+    >>> ball.paint.at(0.0)
+    array([0.5, 0. , 0. , 1. ])
     """
 
     __slots__ = ()
@@ -357,6 +408,17 @@ class Mapping(Change):
     """A change of the texture coordinates. Its function `uv` answers (V, 2).
 
     It may want `points`, `uv` and `position`.
+
+    >>> import reactive4d as r4
+    >>> class Flip(r4.Mapping):
+    ...     @staticmethod
+    ...     def uv(uv):
+    ...         return 1 - uv
+    >>> sheet = r4.Plane()
+    >>> before = sheet.uv.at(0.0)
+    >>> _ = sheet.apply(Flip())
+    >>> bool((sheet.uv.at(0.0) == 1 - before).all())
+    True
     """
 
     __slots__ = ()
@@ -366,7 +428,20 @@ class Mapping(Change):
 
 
 class Note(Change):
-    """A change that stores something in the list, for others to ask for. Its function `note` answers what it stores."""
+    """A change that stores something in the list, for others to ask for. Its function `note` answers what it stores.
+
+    >>> import reactive4d as r4
+    >>> class Price(r4.Note):
+    ...     euros = r4.Float()
+    ...
+    ...     @staticmethod
+    ...     def note(euros):
+    ...         return {"price": euros}
+    >>> vase = r4.Cylinder()
+    >>> _ = vase.apply(Price(r4.keys({0: 10.0, 2: 30.0})))
+    >>> vase.notes.at(1.0)
+    ({'price': 20.0},)
+    """
 
     __slots__ = ()
 

@@ -16,6 +16,7 @@ from reactive4d.engine import Formula
 from reactive4d.errors import EvaluationError, ShapeError, hint
 from reactive4d.geometry import transforms
 from reactive4d.geometry.meshes import Mesh
+from reactive4d.model.passes import Passed
 from reactive4d.model.places import Entry, Place
 from reactive4d.model.runs import Product
 from reactive4d.model.steps import Step, step
@@ -25,7 +26,7 @@ from reactive4d.signals.functions import Function
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["Base", "Deformed", "Form", "Reshaped", "Stage", "deformed", "reshaped"]
+__all__ = ["Base", "Deformed", "Form", "Reshaped", "Stage", "interned"]
 
 PARTS = ("faces", "points", "uv", "weld", "lines")
 Array = NDArray[np.float64]
@@ -56,9 +57,10 @@ class Stage(Signal[Any], Formula):
 class Form:
     """What an object is made of: parts that are signals, in the space in which the next change finds them."""
 
-    __slots__ = ("__weakref__", "parts")
+    __slots__ = ("__weakref__", "over", "parts")
 
     def __init__(self) -> None:
+        self.over: Any = None  # a weak reference to the surface over these control points
         self.parts: dict[str, Signal[Any] | None] = {}
 
     @property
@@ -105,11 +107,12 @@ class Form:
 class Base(Form):
     """What a kind makes of its settings."""
 
-    __slots__ = ("kind", "owner", "product")
+    __slots__ = ("controls", "kind", "owner", "product")
 
     def __init__(self, owner: "Object", kind: "type[Object]") -> None:
         super().__init__()
         self.product: Product | None = None
+        self.controls: Any = None  # its control points as a form of their own
         self.owner = owner
         self.kind = kind
 
@@ -311,26 +314,31 @@ class Deformed(Made):
 
         return Stage(self, "origin", mapped, self.entry.change.values, *([] if before is None else [before]))
 
-    def _stepped(self, name: str, act: Step, position: Signal[Any] | None) -> Signal[Any] | None:
-        values = self.entry.change.values
-        before = self.position()
-        center = [] if position is None else [position]
+    def _stepped(self, name: str, act: Step, position: Signal[Any] | None) -> Signal[Any]:
+        if name != "extent":
+            return Passed(self, name)
 
         def measured(points: Any, values: Any, origin: Array = ORIGIN) -> Any:
             return act(values, {"position": origin}).extent(points)
 
-        def points(before: Any, values: Any, extent: Any, origin: Array = ORIGIN) -> Any:
-            return act(values, {"position": origin}).map(before, extent)
+        return Stage(
+            self, name, measured, self.placed(), self.entry.change.values, *([] if position is None else [position])
+        )
 
-        def mapped(values: Any, extent: Any, origin: Array = ORIGIN) -> Any:
-            return _first(act(values, {"position": origin}).map(origin.reshape(1, 3), extent))
+    def together(self) -> "list[Deformed]":
+        """The stepped deformations without a transform between them, up to this one, that may act in one pass.
 
-        if name == "extent":
-            return Stage(self, name, measured, self.placed(), values, *center)
-        extent = self.need("extent")
-        if name == "points":
-            return Stage(self, name, points, self.placed(), values, extent, *center)
-        return Stage(self, name, mapped, values, extent, *([] if before is None else [before]))
+        What is inherited is asked for its points, so that extensions share them.
+        """
+        forms: list[Deformed] = [self]
+        while True:
+            lowest = forms[0]
+            below = lowest.below
+            if lowest.run is not None or not isinstance(below, Deformed) or not below.entry.change.is_stepped:
+                return forms
+            if below.entry.owner is not self.entry.owner:
+                return forms
+            forms.insert(0, below)
 
 
 def _first(points: Any) -> Any:
@@ -376,17 +384,8 @@ def _constant(value: Any) -> Signal[Any]:
 _forms: WeakValueDictionary[tuple[int, ...], Made] = WeakValueDictionary()
 
 
-def deformed(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
-    """The form that a deformation makes."""
-    return _interned(Deformed, below, run, entry)
-
-
-def reshaped(below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
-    """The form that a reshaping change makes."""
-    return _interned(Reshaped, below, run, entry)
-
-
-def _interned(kind: type[Made], below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
+def interned(kind: type[Made], below: Form, run: Signal[Any] | None, entry: Entry) -> Made:
+    """The form of a kind that a change makes of another form, made once."""
     key = (id(kind), id(below), id(run), id(entry))
     form = _forms.get(key)
     return form if form is not None else _forms.setdefault(key, kind(below, run, entry))

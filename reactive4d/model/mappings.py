@@ -56,9 +56,8 @@ def _spread(values: Array) -> Array:
     return (values - low) / (high - low) if high > low else np.zeros_like(values)
 
 
-def mapped(obj: "Object", entries: "tuple[Entry, ...]") -> Array | None:
-    """The texture coordinates that the last of some mappings leaves; only inside of an evaluation."""
-    uv: Any = None
+def mapped(obj: "Object", entries: "tuple[Entry, ...]", uv: Array | None) -> Array | None:
+    """The texture coordinates that some mappings make of these; only inside of an evaluation."""
     for entry in entries:
         change = type(entry.change)
         act, wanted = step(change)

@@ -4,7 +4,7 @@ The kind's own methods hold while only transforms act: rays are taken into objec
 world's. A deformation puts the mesh in their place; without it they are back.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ from reactive4d.signals.functions import Function
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["contains", "intersect", "methods"]
+__all__ = ["contains", "inside", "intersect", "methods"]
 
 Array = NDArray[np.float64]
 FROM_MESH = ("intersect", "contains", "volume", "area", "center_of_mass", "inertia")
@@ -82,19 +82,26 @@ def intersect(obj: "Object", origins: ArrayLike, directions: ArrayLike) -> Signa
     return Function(hits, name=f"{obj.name}.intersect")
 
 
+def inside(obj: "Object") -> Callable[[ArrayLike], NDArray[np.bool_]]:
+    """A function that says which points of the world lie inside of an object; only inside of an evaluation."""
+    method = closed_form(obj, "contains")
+    matrix = obj.matrix.now()
+    if method is None or abs(np.linalg.det(matrix[:3, :3])) < 1e-14:
+        mesh = obj.mesh.now()
+        return lambda points: insides.inside(mesh, points)
+    back = transforms.inverse(matrix)
+    answer = method.now()
+
+    def asked(points: ArrayLike) -> NDArray[np.bool_]:
+        return np.asarray(answer(np.asarray(points, dtype=np.float64) @ back[:3, :3].T + back[:3, 3]))
+
+    return asked
+
+
 def contains(obj: "Object", points: ArrayLike) -> Signal[NDArray[np.bool_]]:
     """Which points lie inside of an object."""
     asked = _rows(points, "points")
-
-    def inside() -> NDArray[np.bool_]:
-        method = closed_form(obj, "contains")
-        matrix = obj.matrix.now()
-        if method is None or abs(np.linalg.det(matrix[:3, :3])) < 1e-14:
-            return insides.inside(obj.mesh.now(), asked)
-        back = transforms.inverse(matrix)
-        return np.asarray(method.now()(asked @ back[:3, :3].T + back[:3, 3]))
-
-    return Function(inside, name=f"{obj.name}.contains")
+    return Function(lambda: obj.inside.now()(asked), name=f"{obj.name}.contains")
 
 
 def _rows(values: ArrayLike, name: str) -> Array:

@@ -10,22 +10,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from reactive4d.engine import engine
 from reactive4d.engine.frames import LOCK
-from reactive4d.errors import EvaluationError, Reactive4dError, ShapeError, hint, unknown
+from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
 from reactive4d.geometry import meshes, transforms
 from reactive4d.geometry.meshes import Mesh
-from reactive4d.model import places
+from reactive4d.model import journeys, masses, methods, places, stacks, surfaces
 from reactive4d.model.attributes import DEFAULT, INHERITED, Attribute
 from reactive4d.model.changes import LANES, Change, Lane, snake
 from reactive4d.model.channels import Channel
-from reactive4d.model.forms import Base, Form, deformed, reshaped
-from reactive4d.model.lanes import Items, Own, acting, before, entry_of, merged
+from reactive4d.model.forms import Base, Form
+from reactive4d.model.lanes import Items, Own, acting, entry_of
 from reactive4d.model.lists import Changes
 from reactive4d.model.places import Entry, Place
 from reactive4d.model.prototypes import Names, Prototype, refuse_circle
 from reactive4d.model.registries import KINDS
-from reactive4d.model.runs import Product, Run, run_of
+from reactive4d.model.runs import Product
 from reactive4d.model.settings import Flag, Float, Held, Paint, Setting, declared
-from reactive4d.model.steps import step
+from reactive4d.model.stacks import UNSHAPED
 from reactive4d.model.tables import Method, Table
 from reactive4d.model.transforms import Rotate, Scale, Translate
 from reactive4d.signals.facade import Signal
@@ -68,6 +68,7 @@ class Object:
 
     script: ClassVar[str] = "object"
     is_group: ClassVar[bool] = False  # whether its members are drawn one by one
+    hull: ClassVar[str] = ""  # the setting that holds the control points, if the surface is made of some
     table: ClassVar[Table] = Table()
     settings: ClassVar[dict[str, Setting[Any]]] = {}
     methods_by_name: ClassVar[dict[str, Method]] = {}
@@ -181,7 +182,7 @@ class Object:
 
     def shaping_names(self) -> tuple[str, ...]:
         """The names of the settings that it has set itself, but for those that have no say in what it is made of."""
-        return tuple([name for name in self.set_names() if name not in _UNSHAPED])
+        return tuple([name for name in self.set_names() if name not in UNSHAPED])
 
     def set_names(self) -> tuple[str, ...]:
         """The names of the settings that it has set itself, as they are by now."""
@@ -192,9 +193,9 @@ class Object:
     def parameter(self, kind: "type[Object]", name: str) -> Signal[Any]:
         """A setting as a kind understands it, which may not be the object's own kind."""
         wanted = kind.settings[name]
-        if type(self).settings.get(name) is wanted or name in _UNSHAPED:
+        if type(self).settings.get(name) is wanted or name in UNSHAPED:
             return self.attribute(name)
-        return self.channel(f"{name}@{kind.__name__}@{id(kind)}", lambda obj: _understood(obj, kind, name))
+        return self.channel(f"{name}@{kind.__name__}@{id(kind)}", lambda obj: stacks.understood(obj, kind, name))
 
     # -- prototypes ------------------------------------------------------------------------------------------------
 
@@ -280,7 +281,7 @@ class Object:
 
     def lane(self, lane: Lane) -> Signal[Items]:
         """All entries of one lane, its own and the inherited ones, as a signal."""
-        return self.channel(f"changes.{lane}.all", lambda obj: entries(obj, lane))
+        return self.channel(f"changes.{lane}.all", lambda obj: stacks.entries(obj, lane))
 
     def apply(self, change: C, /) -> C:
         """Add a change at the end of the list, and return it.
@@ -298,7 +299,7 @@ class Object:
         """The entries that act, of all lanes, in their order."""
 
         def answer(obj: "Object") -> tuple[Entry, ...]:
-            found = [entry for lane in LANES for entry in acting(entries(obj, lane))]
+            found = [entry for lane in LANES for entry in acting(stacks.entries(obj, lane))]
             return tuple(sorted(found, key=lambda entry: entry.place))
 
         return self.channel("acting", answer)
@@ -325,27 +326,27 @@ class Object:
     @property
     def kind(self) -> Signal[type["Object"]]:
         """The kind that it is of: that of its class or prototype, or what it became."""
-        return self.channel("kind", _kind)
+        return self.channel("kind", stacks.kind_of)
 
     @property
     def form(self) -> Signal[Form]:
         """What it is made of before the last transforms act."""
-        return self.channel("form", _form)
+        return self.channel("form", stacks.form_of)
 
     @property
     def run(self) -> Signal[Product | None]:
         """The transforms after the last deformation, as one signal of matrices; None where there are none."""
-        return self.channel("run", _run)
+        return self.channel("run", stacks.product_of)
 
     @property
     def matrix(self) -> Signal[Array]:
         """(4, 4), the transforms after the last deformation."""
-        return self.channel("matrix", _matrix)
+        return self.channel("matrix", stacks.matrix_of)
 
     @property
     def position(self) -> Signal[Array]:
         """(3,), where the object's origin is, in world space: carried along by deformations too."""
-        return self.channel("position", _position)
+        return self.channel("position", stacks.position_of)
 
     @property
     def velocity(self) -> Signal[Array]:
@@ -366,7 +367,7 @@ class Object:
     @property
     def topology(self) -> Signal[NDArray[np.int32]]:
         """(F, 3), which points make a triangle."""
-        return self.channel("topology", lambda obj: _surface_part(obj, "faces"))
+        return self.channel("topology", lambda obj: surfaces.surface_part(obj, "faces"))
 
     @property
     def points(self) -> Signal[NDArray[np.float32]]:
@@ -376,7 +377,7 @@ class Object:
     @property
     def outline(self) -> Signal[Array]:
         """(n, 3), the points of a path or shape in world space."""
-        return self.channel("outline", _outline)
+        return self.channel("outline", surfaces.outline_of)
 
     @property
     def points_of(self) -> Signal[Array]:
@@ -389,48 +390,49 @@ class Object:
         Args:
             u: from 0, its beginning, to 1, its end; a number or a signal.
         """
-        from reactive4d.model import journeys
-
         return journeys.along(self, u)
 
     def tangent_along(self, u: Any) -> Signal[Array]:
         """(3,), the direction of a path at a point of it, of length 1."""
-        from reactive4d.model import journeys
-
         return journeys.tangent_along(self, u)
+
+    @property
+    def selection(self) -> "Signal[NDArray[np.bool_] | None]":
+        """(V,), which points are selected when the last change acts, or None where all are."""
+        return self.channel("selection", surfaces.selection_of)
 
     @property
     def weld(self) -> Signal[NDArray[np.int32] | None]:
         """(V,), for every point the first one at the same place, or None where no two points are."""
-        return self.channel("weld", lambda obj: _surface_part(obj, "weld"))
+        return self.channel("weld", lambda obj: surfaces.surface_part(obj, "weld"))
 
     @property
     def uv(self) -> Signal[NDArray[np.float32] | None]:
         """(V, 2), texture coordinates, or None."""
-        return self.channel("uv", _uv)
+        return self.channel("uv", surfaces.uv_of)
 
     @property
     def surface(self) -> Signal[Mesh]:
         """The mesh in object space."""
-        return self.channel("surface", _surface)
+        return self.channel("surface", surfaces.surface_of)
 
     @property
     def mesh(self) -> Signal[Mesh]:
         """The mesh in world space."""
-        return self.channel("mesh", _mesh)
+        return self.channel("mesh", surfaces.mesh_of)
 
     def surface_of_kind(self) -> Signal[Mesh]:
         """What its kind makes of its settings, as a mesh; only inside of an evaluation."""
-        return base_of(self, self.kind.now()).method("surface")
+        return stacks.base_of(self, self.kind.now()).method("surface")
 
     def solid_of_kind(self) -> Signal[Any]:
         """What its kind makes of its settings, as a solid; only inside of an evaluation."""
-        return base_of(self, self.kind.now()).method("solid")
+        return stacks.base_of(self, self.kind.now()).method("solid")
 
     @property
     def bounds(self) -> Signal[Array]:
         """(2, 3), the lowest and the highest corner of the box round it, in world space."""
-        return self.channel("bounds", _bounds)
+        return self.channel("bounds", surfaces.bounds_of)
 
     @property
     def normals(self) -> Signal[NDArray[np.float32]]:
@@ -440,36 +442,26 @@ class Object:
     @property
     def volume(self) -> Signal[float]:
         """Of the solid, in cubic metres."""
-        from reactive4d.model import masses
-
         return self.channel("volume", masses.volume)
 
     @property
     def area(self) -> Signal[float]:
         """Of the surface, in square metres."""
-        from reactive4d.model import masses
-
         return self.channel("area", masses.area)
 
     @property
     def center_of_mass(self) -> Signal[Array]:
         """(3,), of the solid, in world space."""
-        from reactive4d.model import masses
-
         return self.channel("center_of_mass", masses.center_of_mass)
 
     @property
     def inertia(self) -> Signal[Array]:
         """(3, 3), about the centre of mass, for a density of 1."""
-        from reactive4d.model import masses
-
         return self.channel("inertia", masses.inertia)
 
     @property
     def solid(self) -> Signal[Any]:
         """The solid in object space, as booleans take it."""
-        from reactive4d.model import masses
-
         return self.channel("solid", masses.solid)
 
     @property
@@ -481,19 +473,17 @@ class Object:
         >>> tube.methods.at(0.0)["intersect"]
         'cylinders.intersect of Cylinder'
         """
-        from reactive4d.model import methods
-
         return self.channel("methods", methods.methods)
 
     @property
     def paint(self) -> Signal[Array]:
         """(4,), the colour and how opaque it is: the settings `color` and `opacity`, and the changes on top."""
-        return self.channel("paint", lambda obj: look_of(obj)["color"])
+        return self.channel("paint", lambda obj: surfaces.look_of(obj)["color"])
 
     @property
     def look(self) -> Signal[Mapping[str, Any]]:
         """All that is known of how the surface looks, by name: `color`, `specular`, `texture` and so on."""
-        return self.channel("look", lambda obj: MappingProxyType(look_of(obj)))
+        return self.channel("look", lambda obj: MappingProxyType(surfaces.look_of(obj)))
 
     def intersect(self, origins: ArrayLike, directions: ArrayLike) -> "Signal[Hits]":
         """Where rays meet it first.
@@ -505,14 +495,15 @@ class Object:
         Raises:
             ShapeError: not (N, 3), or not finite.
         """
-        from reactive4d.model import methods
-
         return methods.intersect(self, origins, directions)
+
+    @property
+    def inside(self) -> Signal[Callable[[ArrayLike], NDArray[np.bool_]]]:
+        """A function that says which points, (N, 3) in world space, lie inside of it."""
+        return self.channel("inside", methods.inside)
 
     def contains(self, points: ArrayLike) -> Signal[NDArray[np.bool_]]:
         """Which of the points, (N, 3) in world space, lie inside of it."""
-        from reactive4d.model import methods
-
         return methods.contains(self, points)
 
     def __or__(self, other: "Object") -> "Object":
@@ -616,170 +607,6 @@ def _declare(cls: type[Object]) -> None:
                     error = Reactive4dError(f"{cls.__name__}: the method {method.name} wants {name!r}")
                     raise hint(error, f"its settings are {', '.join(cls.settings)}; `obj` is the object itself")
     KINDS[cls.script] = cls
-
-
-# -- rules: each is what a channel answers inside of an evaluation -----------------------------------------------------
-
-
-def entries(obj: Object, lane: Lane) -> Items:
-    """The entries of one lane, own and inherited, by their places."""
-    own = obj.own(lane).now()
-    prototype = obj.prototype.now()
-    return own if prototype is None else merged(own, prototype.lane(lane).now())
-
-
-def entries_before(obj: Object, lane: Lane, place: Place) -> Items:
-    """Those before a place: an edit after it does not concern the asker."""
-    bounded = obj.own(lane).before(place)
-    own = before(obj.own(lane).now(), place) if bounded is None else bounded.now()
-    prototype = obj.prototype.now()
-    if prototype is None:
-        return own
-    inherited = prototype.passing(("changes", lane, place), lambda o: entries_before(o, lane, place)).now()
-    return merged(own, inherited)
-
-
-def _understood(obj: Object, kind: type[Object], name: str) -> Any:
-    wanted = kind.settings[name]
-    while name not in obj.names.now():
-        prototype = obj.prototype.now()
-        if prototype is None:
-            return wanted.default_value
-        obj = prototype
-    return wanted.check(obj.attribute(name).now())
-
-
-def _kind(obj: Object) -> type[Object]:
-    became = acting(entries(obj, "kind"))
-    if became:
-        return became[-1].change.values.now()[0]
-    prototype = obj.prototype.now()
-    return type(obj) if prototype is None else prototype.kind.now()
-
-
-def base_of(obj: Object, kind: type[Object]) -> Base:
-    """The form that a kind makes of the settings of an object, or of its prototype where they are the same."""
-    prototype = obj.prototype.now()
-    if prototype is not None and not any(name in kind.settings for name in obj.names.now()):
-        return prototype.channel(f"base@{id(kind)}", lambda o: base_of(o, kind)).now()
-    bases = obj._bases  # pyright: ignore[reportPrivateUsage]
-    base = bases.get(kind)
-    return base if base is not None else bases.setdefault(kind, Base(obj, kind))
-
-
-_UNSHAPED = frozenset({"color", "opacity", "visible"})
-
-
-def _form(obj: Object) -> Form:
-    kind = obj.kind.now()
-    form: Form = base_of(obj, kind)
-    shaping = acting(entries(obj, "surface")) + acting(entries(obj, "shape"))
-    if not shaping:
-        return form
-    shaping = tuple(sorted(shaping, key=lambda entry: entry.place))
-    moving = acting(entries_before(obj, "transform", shaping[-1].place))
-    placement = form.part("placement")
-    done = 0
-    for entry in shaping:
-        start = done
-        while done < len(moving) and moving[done].place < entry.place:
-            done += 1
-        run = run_of(moving[start:done], below=placement, origin=form.part("origin"), table=kind.kind_table)
-        placement = None
-        form = reshaped(form, run, entry) if entry.change.lane == "surface" else deformed(form, run, entry)
-    return form
-
-
-def _run(obj: Object) -> Product | None:
-    form = obj.form.now()
-    moving = acting(entries(obj, "transform"))
-    last = form.place
-    if last is not None:
-        moving = tuple([entry for entry in moving if entry.place > last])
-    kind = form.base.kind
-    run = run_of(
-        moving,
-        below=form.part("placement") if last is None else None,
-        origin=form.part("origin"),
-        table=kind.kind_table,
-    )
-    return None if run is None else run.product if isinstance(run, Run) else form.base.placed(run)
-
-
-def _matrix(obj: Object) -> Array:
-    product = obj.run.now()
-    return _IDENTITY if product is None else product.run.now()
-
-
-def _position(obj: Object) -> Array:
-    form = obj.form.now()
-    origin = form.part("origin")
-    matrix = obj.matrix.now()
-    if origin is None:
-        return matrix[:3, 3].copy()
-    return matrix[:3, :3] @ origin.now() + matrix[:3, 3]
-
-
-def _surface_part(obj: Object, name: str) -> Any:
-    """Faces and welds: deformations have no say in them, unless something is made of what they left."""
-    if acting(entries(obj, "surface")):
-        part = obj.form.now().part(name)
-    else:
-        part = base_of(obj, obj.kind.now()).part(name)
-    return None if part is None else part.now()
-
-
-def _uv(obj: Object) -> Any:
-    mappings = acting(entries(obj, "mapping"))
-    if not mappings:
-        return _surface_part(obj, "uv")
-    from reactive4d.model.mappings import mapped
-
-    return mapped(obj, mappings)
-
-
-def _surface(obj: Object) -> Mesh:
-    faces = _surface_part(obj, "faces")
-    form = obj.form.now()
-    if faces is None:
-        faces = form.need("faces").now()
-    parts: dict[str, Any] = {"uv": _uv(obj), "weld": _surface_part(obj, "weld")}
-    colors = base_of(obj, obj.kind.now()).part("colors")
-    if colors is not None and len(faces) == len(colors.now()):
-        parts["colors"] = colors.now()
-    return Mesh(form.need("points").now(), faces, {name: part for name, part in parts.items() if part is not None})
-
-
-def _mesh(obj: Object) -> Mesh:
-    surface = obj.surface.now()
-    return surface if obj.run.now() is None else surface.transformed(obj.matrix.now())
-
-
-def _bounds(obj: Object) -> Array:
-    points = obj.points.now()
-    if not len(points):
-        raise EvaluationError(f"{obj.name} has no points, and so no bounds")
-    placed = transforms.transform_points(obj.matrix.now(), points)
-    return np.array([placed.min(axis=0), placed.max(axis=0)], dtype=np.float64)
-
-
-def _outline(obj: Object) -> Array:
-    return transforms.transform_points(obj.matrix.now(), np.asarray(obj.points.now(), dtype=np.float64))
-
-
-def look_of(obj: Object) -> dict[str, Any]:
-    """How the surface of an object looks, by name; only inside of an evaluation."""
-    color = obj.color.now().copy()
-    look: dict[str, Any] = {"color": color}
-    for entry in acting(entries(obj, "paint")):
-        change = entry.change
-        act, _ = step(type(change))
-        look.update(act(change.values.now(), {"color": look["color"]}))
-    opaque = obj.opacity.now() * look.pop("opacity", 1.0)
-    if opaque != 1.0:
-        look["color"] = np.array([*look["color"][:3], look["color"][3] * opaque])
-    look["color"].flags.writeable = False
-    return look
 
 
 KINDS["object"] = Object
