@@ -74,6 +74,7 @@ class Run(Signal[Array], Formula):
             plan.append((len(parts), values.merge))
         self.plan = tuple(plan)
         self.inputs = tuple(inputs)
+        self.sole = None
         if self.segments or self.shelves is not None:
             link(self, self.inputs)
 
