@@ -136,6 +136,15 @@ class Changes(MutableSequence[Change]):
             for entry in entries[index] if isinstance(index, slice) else (entries[index],):
                 self._take(self._owned(entry))
 
+    def clear(self) -> None:
+        """Take all changes out of the list, if all are its own."""
+        del self[:]
+
+    def reverse(self) -> None:
+        """Put all changes into the opposite order, if all are its own."""
+        with engine.transaction():
+            super().reverse()
+
     def remove(self, value: Change) -> None:
         """Take a change out of the list.
 
