@@ -51,7 +51,7 @@ def rotation(seed: int) -> np.ndarray:
     from scipy.spatial.transform import Rotation
 
     m = np.eye(4)
-    m[:3, :3] = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+    m[:3, :3] = Rotation.from_quat(np.random.default_rng(seed).normal(size=4)).as_matrix()
     return m
 
 
