@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from reactive4d.geometry import meshes, solids
 from reactive4d.model.forms import Base
+from reactive4d.model.palettes import groups_of
 from reactive4d.signals.facade import Signal
 
 if TYPE_CHECKING:
@@ -66,4 +67,6 @@ def solid(obj: "Object") -> Any:
     method = closed_form(obj, "solid")
     if method is not None:
         return method.now()
-    return solids.from_mesh(obj.surface.now())
+    faces = obj.form.now().need("faces").now()
+    groups = groups_of(obj).now()
+    return solids.solid(obj.points.now(), faces, obj.weld.now(), uv=obj.uv.now(), groups=groups)

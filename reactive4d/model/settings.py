@@ -258,6 +258,7 @@ class Vector(Typed[Array, Numbers | None]):
         is_direction: whether "x", "y" and "z" are taken for the axes, and the length does not count.
         spreads: whether a single number stands for equal ones.
         low: the smallest number allowed.
+        high: the largest one.
 
     >>> import reactive4d as r4
     >>> r4.Box(size=(1, 2, 3)).size.at(0.0)
@@ -272,13 +273,16 @@ class Vector(Typed[Array, Numbers | None]):
         is_direction: bool = False,
         spreads: bool = False,
         low: float = -math.inf,
+        high: float = math.inf,
         is_whole: bool = False,
         unit: str = "",
         doc: str = "",
     ) -> None:
         self.shape: tuple[int | None, ...] = (size,) if isinstance(size, int) else size
-        self.is_direction, self.spreads, self.low, self.is_whole = is_direction, spreads, low, is_whole
-        self.is_plain = len(self.shape) == 1 and not is_direction and low == -math.inf and not is_whole
+        self.is_direction, self.spreads, self.is_whole = is_direction, spreads, is_whole
+        self.low, self.high = low, high
+        is_bounded = low > -math.inf or high < math.inf
+        self.is_plain = len(self.shape) == 1 and not is_direction and not is_bounded and not is_whole
         super().__init__(default, doc=doc, unit=unit)
 
     def admit(self, value: Any) -> Any:
@@ -317,6 +321,8 @@ class Vector(Typed[Array, Numbers | None]):
             raise self.refused(f"{self._expected()}, all finite", value)
         if self.low > -math.inf and array.size and float(array.min()) < self.low:
             raise ShapeError(f"{self.path}: expected numbers of at least {self.low:g}, got {_listed(array)}")
+        if self.high < math.inf and array.size and float(array.max()) > self.high:
+            raise ShapeError(f"{self.path}: expected numbers of at most {self.high:g}, got {_listed(array)}")
         if self.is_whole and not (array == np.floor(array)).all():
             raise ShapeError(f"{self.path}: expected whole numbers, got {_listed(array)}")
         if self.is_direction and not array.any():

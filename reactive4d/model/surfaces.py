@@ -10,6 +10,7 @@ from reactive4d.geometry import transforms
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.lanes import acting
 from reactive4d.model.mappings import mapped
+from reactive4d.model.masses import closed_form
 from reactive4d.model.stacks import base_of, entries
 from reactive4d.model.steps import step
 
@@ -73,7 +74,9 @@ def bounds_of(obj: "Object") -> Array:
 
 def outline_of(obj: "Object") -> Array:
     """The points of a path in world space."""
-    return transforms.transform_points(obj.matrix.now(), np.asarray(obj.points.now(), dtype=np.float64))
+    method = closed_form(obj, "outline")
+    points = obj.points.now() if method is None else method.now()
+    return transforms.transform_points(obj.matrix.now(), np.asarray(points, dtype=np.float64))
 
 
 def look_of(obj: "Object") -> dict[str, Any]:

@@ -12,6 +12,7 @@ from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.solids import Solid
 from reactive4d.model.forms import Base
 from reactive4d.model.objects import Object
+from reactive4d.model.palettes import face_colors, palette_of
 from reactive4d.model.settings import Held
 from reactive4d.model.tables import Table
 
@@ -56,15 +57,29 @@ class Members(Held):
         return _members(value)
 
 
-def members_of(obj: Object) -> tuple[tuple[str, Object], ...]:
-    """The members of an object with the setting `members`, with their names; only inside of an evaluation."""
-    return obj.attribute("members").now()
+def members_of(obj: Object, kind: type[Object]) -> tuple[tuple[str, Object], ...]:
+    """The members of an object that is of a kind with the setting `members`; only inside of an evaluation."""
+    return obj.parameter(kind, "members").now()
+
+
+def _solid_members(obj: Object) -> list[Object]:
+    """The members of a group that have a surface; lights and paths have none."""
+    shown = [member for _, member in members_of(obj, Group) if member.visible.now()]
+    return [member for member in shown if member.form.now().part("faces") is not None]
 
 
 def _together(obj: Object) -> Mesh:
     """The meshes of the members, side by side."""
-    meshes = [member.mesh.now() for _, member in members_of(obj) if member.visible.now()]
-    return joined(meshes)
+    return joined([member.mesh.now() for member in _solid_members(obj)])
+
+
+def _one_after_the_other(obj: Object) -> Any:
+    """(n, 3), the outlines of the members, where the next begins at the end of the last without doubling the point."""
+    found: list[Any] = []
+    for _, member in members_of(obj, Group):
+        line = member.outline.now()
+        found.append(line[1:] if found and np.array_equal(found[-1][-1:], line[:1]) else line)
+    return freeze(np.concatenate(found)) if found else freeze(np.zeros((0, 3)))
 
 
 def joined(meshes: list[Mesh]) -> Mesh:
@@ -84,12 +99,16 @@ def joined(meshes: list[Mesh]) -> Mesh:
 
 def _painted(obj: Object) -> Any:
     """(F, 4), each member's paint on its faces."""
-    rows = [
-        np.tile(member.paint.now().astype(np.float32), (len(member.topology.now()), 1))
-        for _, member in members_of(obj)
-        if member.visible.now()
-    ]
+    rows = [_painted_faces(member) for member in _solid_members(obj)]
     return freeze(np.concatenate(rows)) if rows else freeze(np.zeros((0, 4), np.float32))
+
+
+def _painted_faces(obj: Object) -> Any:
+    """(F, 4), the colours that its own members have, or its paint on all faces."""
+    colors = face_colors(obj)
+    if colors is not None:
+        return colors
+    return np.tile(obj.paint.now().astype(np.float32), (len(obj.topology.now()), 1))
 
 
 class Group(Object):
@@ -109,11 +128,16 @@ class Group(Object):
 
     members = Members((), doc="the objects, by name")
 
-    table = Table(surface=lambda obj: _together(obj), colors=lambda obj: _painted(obj))
+    table = Table(
+        surface=lambda obj: _together(obj),
+        colors=lambda obj: _painted(obj),
+        outline=lambda obj: _one_after_the_other(obj),
+    )
 
     def __init__(self, members: Any = None, /, **named: Any) -> None:
         objects = {name: value for name, value in named.items() if isinstance(value, Object)}
         settings = {name: value for name, value in named.items() if not isinstance(value, Object)}
+        members = settings.pop("members", members)
         if objects:
             members = {**(members if isinstance(members, Mapping) else dict(_members(members or ()))), **objects}
         super().__init__(members=members, **settings)
@@ -178,7 +202,11 @@ def _combined(tree: Any) -> Solid:
 
 
 def _solid(obj: Object) -> Solid:
-    return _combined(obj.attribute("tree").now())
+    return _combined(_tree_of(obj))
+
+
+def _tree_of(obj: Object) -> Any:
+    return obj.parameter(Combination, "tree").now()
 
 
 def _surface(obj: Object) -> Mesh:
@@ -188,17 +216,15 @@ def _surface(obj: Object) -> Mesh:
 def _paints(obj: Object) -> list[Any]:
     """The paint of each source of a solid, from left to right; only inside of an evaluation."""
     form = obj.form.now()
-    tree = obj.attribute("tree").now() if issubclass(form.base.kind, Combination) else None
-    if tree is None or not isinstance(form, Base):
-        return [obj.paint.now()] * len(obj.solid.now().sources)
-    return [paint for leaf in leaves(tree) for paint in _paints(leaf)]
+    if isinstance(form, Base) and issubclass(form.kind, Combination):
+        return [paint for leaf in leaves(_tree_of(obj)) for paint in _paints(leaf)]
+    palette = palette_of(obj).now()
+    return [obj.paint.now()] if palette is None else list(palette)
 
 
 def _colors(obj: Object) -> Any:
     source = obj.surface_of_kind().now().attributes["source"]
-    paints = [paint for leaf in leaves(obj.attribute("tree").now()) for paint in _paints(leaf)]
-    if not paints:
-        return freeze(np.zeros((0, 4), np.float32))
+    paints = [paint for leaf in leaves(_tree_of(obj)) for paint in _paints(leaf)]
     return freeze(np.array(paints, np.float32)[source])
 
 
@@ -241,9 +267,7 @@ class Hull(Object):
     members = Members((), doc="the objects")
 
     table = Table(
-        solid=lambda obj: solids.convex_hull(
-            np.concatenate([member.mesh.now().points for _, member in members_of(obj)])
-        ),
+        solid=lambda obj: solids.convex_hull(joined([member.mesh.now() for _, member in members_of(obj, Hull)]).points),
         surface=lambda obj: solids.mesh(obj.solid_of_kind().now()),
     )
 

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.objects import Object
@@ -23,6 +25,8 @@ def _accepted(value: Any) -> Any:
 def _surface(source: Any) -> Mesh:
     if isinstance(source, Mesh):
         return source
+    if not source:
+        return Mesh(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
     from reactive4d.geometry import files
 
     return files.load(source)
@@ -40,7 +44,7 @@ class Model(Object):
     1.0
     """
 
-    source = Held("", accept=_accepted, doc="a Mesh, or the path of a file")
+    source = Held("", accept=_accepted, doc="a Mesh, or the path of a file; nothing if it is not given")
 
     table = Table(surface=_surface)
 

@@ -19,7 +19,9 @@ class Superquadric(Object):
     """
 
     size = Vector((1.0, 1.0, 1.0), spreads=True, low=0.0, unit="m", doc="along x, y and z; of a toroid its section's")
-    exponents = Vector((1.0, 1.0), size=2, low=0.0, doc="from pole to pole and round the axis: 1 is round, 0 square")
+    exponents = Vector(
+        (1.0, 1.0), size=2, low=0.01, high=10.0, doc="from pole to pole and round the axis: 1 is round, near 0 square"
+    )
     toroidal = Float(0.0, low=0.0, unit="m", doc="the ring's radius; 0 for an ellipsoid")
     segments = Integer(32, low=3, doc="round the z axis")
     rings = Integer(16, low=2, doc="from pole to pole")
