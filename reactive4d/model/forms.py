@@ -325,21 +325,6 @@ class Deformed(Made):
             self, name, measured, self.placed(), self.entry.change.values, *([] if position is None else [position])
         )
 
-    def together(self) -> "list[Deformed]":
-        """The stepped deformations without a transform between them, up to this one, that may act in one pass.
-
-        What is inherited is asked for its points, so that extensions share them.
-        """
-        forms: list[Deformed] = [self]
-        while True:
-            lowest = forms[0]
-            below = lowest.below
-            if lowest.run is not None or not isinstance(below, Deformed) or not below.entry.change.is_stepped:
-                return forms
-            if below.entry.owner is not self.entry.owner:
-                return forms
-            forms.insert(0, below)
-
 
 def _first(points: Any) -> Any:
     return np.array(points[0], dtype=np.float64)

@@ -5,7 +5,6 @@ decided by whatever is known when somebody asks, and no answer depends on it.
 """
 
 from functools import partial
-from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,18 +14,20 @@ from reactive4d.engine import Cell
 from reactive4d.engine.asks import read
 from reactive4d.engine.frames import LOCK, Task, here
 from reactive4d.engine.peeks import peek
-from reactive4d.geometry.deformations.stacks import Maker, carried, deform_each, origin_after
+from reactive4d.geometry.deformations.stacks import Maker, Point, carried, deform_each, origin_after
+from reactive4d.geometry.transforms import Matrix
+from reactive4d.model.steps import Step as Act
 from reactive4d.model.steps import step
 from reactive4d.signals.facade import Signal
 
 if TYPE_CHECKING:
-    from reactive4d.geometry.deformations.steps import Step as Deforming
-    from reactive4d.model.forms import Deformed
+    from reactive4d.geometry.deformations.steps import Step
+    from reactive4d.model.forms import Deformed, Form
 
 __all__ = ["Passed"]
 
 Array = NDArray[Any]
-_ORIGIN: NDArray[np.float64] = np.zeros(3)
+_ORIGIN: Point = np.zeros(3)
 _ORIGIN.flags.writeable = False
 _BRIEF = 0.1  # Seconds: what holds for less is moving, as whoever plays an animation sees it.
 
@@ -34,13 +35,13 @@ _BRIEF = 0.1  # Seconds: what holds for less is moving, as whoever plays an anim
 class Passed(Signal[Array]):
     """The points that a stepped deformation leaves, or where it leaves the origin."""
 
-    __slots__ = ("asked", "form", "forms", "part")
+    __slots__ = ("asked", "form", "links", "part")
 
     def __init__(self, form: "Deformed", part: str) -> None:
         self.form = form
         self.part = part
-        self.forms = form.together()
-        self.asked = nan  # for which time it was evaluated last
+        self.links = _links(form)
+        self.asked: Any = None  # for which time and point it was evaluated last
         super().__init__(name="")
 
     @property
@@ -53,41 +54,82 @@ class Passed(Signal[Array]):
         pass
 
     def rule(self) -> Array:
-        """In one pass from the highest form on that does not move, or from the one below."""
+        """In one pass from the highest points on that do not move, or from those below."""
         task = here.me.frame
         assert task is not None
         first = self._first(task)
-        if first < len(self.forms) - 1:
+        if first < len(self.links) - 1:
             try:
-                return _together(self.part, self.forms[first:])
+                return _together(self.part, self.links[first:])
             except Exception:  # noqa: BLE001  one by one, so that the error comes from the form to which it belongs
-                return _alone(self.part, self.form)
-        return _alone(self.part, self.form)
+                return alone(self.part, self.form)
+        return alone(self.part, self.form)
 
     def _first(self, task: Task) -> int:
-        """The place of the lowest form that is to be evaluated here, instead of being asked for its points."""
-        forms, last = self.forms, len(self.forms) - 1
-        if task.naive is not None or not last:
-            return last
+        """The place of the lowest link that is to act here, instead of being asked for its points."""
+        links, last = self.links, len(self.links) - 1
+        asked, self.asked = self.asked, (task.t, task.point)
         # Asked again for the time for which it was asked last, something is being edited while the clock stands: each
         # form shall remember its points, since the next edit may be one of the top form alone.
-        asked, self.asked = self.asked, task.t
-        if asked == task.t:
+        if asked == self.asked or task.naive is not None:
             return last
-        for place in range(last, 0, -1):
-            points = forms[place - 1].parts.get("points")
-            if points is not None and _is_known(points, task):
-                return place
-        if _moves(forms[0].placed(), task):
-            return 0
-        for place, form in enumerate(forms):
-            if _moves(form.entry.change.values, task):
-                return place
-        return last
+        known = next((place for place in range(last, 0, -1) if _is_known(links[place].points_if_made(), task)), 0)
+        if _moves(links[known].points(), task):
+            return known
+        return next((place for place in range(known, last) if _moves(links[place].turns, task)), last)
 
 
-def _is_known(cell: Cell, task: Task) -> bool:
+class _Link:
+    """One of the things that act on the points: a deformation, or the run of transforms before it."""
+
+    __slots__ = ("form", "is_run")
+
+    def __init__(self, form: "Deformed", *, is_run: bool) -> None:
+        self.form = form
+        self.is_run = is_run
+
+    @property
+    def turns(self) -> Signal[Any]:
+        """What it does at a time: the matrix, or the values of the change."""
+        run = self.form.run
+        return run if self.is_run and run is not None else self.form.entry.change.values
+
+    def points(self) -> Signal[Any]:
+        """The points that it finds."""
+        return self.form.below.need("points") if self.is_run else self.form.placed()
+
+    def points_if_made(self) -> Signal[Any] | None:
+        """The same, if anybody has wanted them yet."""
+        is_placed = self.form.run is not None and not self.is_run
+        return self.form.parts.get("placed") if is_placed else self.form.below.parts.get("points")
+
+    def origin(self) -> Signal[Any] | None:
+        """Where the object's origin is before it acts; None for (0, 0, 0)."""
+        return self.form.below.part("origin") if self.is_run else self.form.position()
+
+
+def _links(form: "Deformed") -> list[_Link]:
+    """What leads to this form one thing after the other, up to where what was inherited begins, or other changes.
+
+    What is inherited is asked for its points, so that extensions share them; where points are selected, each form is.
+    """
+    if form.part("selection") is not None:
+        return [_Link(form, is_run=False)]
+    links: list[_Link] = []
+    owner = form.entry.owner
+    below: Form = form
+    while isinstance(below, type(form)) and below.entry.change.is_stepped and below.entry.owner is owner:
+        links.append(_Link(below, is_run=False))
+        if below.run is not None:
+            links.append(_Link(below, is_run=True))
+        below = below.below
+    return links[::-1]
+
+
+def _is_known(cell: Cell | None, task: Task) -> bool:
     """Whether an answer is remembered at the task's point; nothing is read by it."""
+    if cell is None:
+        return False
     with LOCK:
         return peek(cell.engine, cell, task.t, task.point) is not None
 
@@ -98,23 +140,22 @@ def _moves(cell: Cell, task: Task) -> bool:
     return hit[1] - hit[0] < _BRIEF
 
 
-def _together(part: str, forms: "list[Deformed]") -> Array:
-    lowest = forms[0]
-    points = lowest.placed().now()
-    makers: list[Maker] = []
-    for form in forms:
-        act, _ = step(type(form.entry.change))
-        makers.append(partial(_made, act, form.entry.change.values.now()))
-    origin = lowest.position()
-    go = deform_each if part == "points" else origin_after
-    return go(points, makers, _ORIGIN if origin is None else origin.now())
+def _together(part: str, links: list[_Link]) -> Array:
+    points = links[0].points().now()
+    acts: list[Maker | Matrix] = []
+    for link in links:
+        turn = link.turns.now()
+        acts.append(turn if link.is_run else partial(_made, step(type(link.form.entry.change))[0], turn))
+    origin = links[0].origin()
+    return (deform_each if part == "points" else origin_after)(points, acts, None if origin is None else origin.now())
 
 
-def _made(act: Any, values: Any, origin: NDArray[np.float64]) -> "Deforming":
+def _made(act: Act, values: Any, origin: Point) -> "Step":
     return act(values, {"position": origin})
 
 
-def _alone(part: str, form: "Deformed") -> Array:
+def alone(part: str, form: "Deformed") -> Array:
+    """What one form makes of the points below it, or of the origin; only inside of an evaluation."""
     act, wanted = step(type(form.entry.change))
     before = form.position() if part == "origin" or "position" in wanted else None
     points = form.placed().now() if part == "points" else None

@@ -19,7 +19,15 @@ from reactive4d.geometry.deformations.frames import basis
 from reactive4d.geometry.deformations.limits import Extent
 from reactive4d.geometry.deformations.normals import deform_with_normals
 from reactive4d.geometry.deformations.skews import Skew
-from reactive4d.geometry.deformations.stacks import Maker, carried, deform, deform_each, measured, origin_after
+from reactive4d.geometry.deformations.stacks import (
+    Maker,
+    carried,
+    deform,
+    deform_each,
+    measured,
+    moved,
+    origin_after,
+)
 from reactive4d.geometry.deformations.steps import Step
 from reactive4d.geometry.deformations.tapers import Taper
 from reactive4d.geometry.deformations.twists import Twist
@@ -270,30 +278,36 @@ def centered(step: Step) -> Maker:
     return lambda origin: cast(Step, replace(family, center=origin))
 
 
+MATRICES = (FRAME, translation((0.1, 0.2, 0.3)), scaling((1, -2, 0.5)), basis("y"), scaling((1, 0, 1)), IDENTITY)
+
+
 @given(
-    steps_of_all_kinds,
-    st.sampled_from([(0.0, 0.0, 0.0), (0.3, -0.2, 0.5)]),
+    st.lists(st.sampled_from([*STEPS.values(), *STILL.values(), *MATRICES]), max_size=6),
+    st.sampled_from([None, (0.0, 0.0, 0.0), (0.3, -0.2, 0.5)]),
     st.sampled_from([0, 1, 500]),
     st.floats(width=32),
 )
 def test_steps_that_are_made_on_the_way_are_those_made_beforehand(
-    steps: list[Step], start: tuple[float, float, float], count: int, stray: float
+    acts: list[Step | Array], start: tuple[float, float, float] | None, count: int, stray: float
 ):
-    """Made when it is known where the origin is, to where the steps below carry it, a stack answers to the bit."""
+    """Made when it is known where the origin is, to where all below carries it, steps answer to the bit as alone."""
     points = cloud(count)
     points[:1, 1] = stray
-    makers = [centered(step) for step in steps]
-    begin = origin = np.array(start)
-    expected = points
+    begin = None if start is None else np.array(start)
+    made = [centered(act) if isinstance(act, Step) else act for act in acts]
+    expected, origin = points, begin
     with np.errstate(all="ignore"):
-        for make in makers:
-            step = make(origin)
+        for act in made:
+            if not callable(act):
+                expected, origin = transform_points(act, expected), moved(act, origin)
+                continue
+            at = np.zeros(3) if origin is None else origin
+            step = act(at)
             extent = step.extent(expected)
-            expected = step.map(expected, extent)
-            origin = carried(step, origin, extent)
-        answer, end = deform_each(points, makers, begin), origin_after(points, makers, begin)
+            expected, origin = step.map(expected, extent), carried(step, at, extent)
+        answer, end = deform_each(points, made, begin), origin_after(points, made, begin)
     assert answer.tobytes() == expected.tobytes()
-    assert end.tobytes() == origin.tobytes()
+    assert end.tobytes() == (np.zeros(3) if origin is None else origin).tobytes()
     assert not answer.flags.writeable
 
 

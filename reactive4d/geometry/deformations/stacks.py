@@ -24,14 +24,18 @@ from .columns import Operation, carry, lone
 from .limits import Column, Extent
 from .steps import FREE, Kernel, Step
 
-__all__ = ["Maker", "carried", "deform", "deform_each", "measured", "origin_after"]
+__all__ = ["Maker", "carried", "deform", "deform_each", "measured", "moved", "origin_after"]
 
-# Makes a step for an object whose origin, (3,) float64, is there when it acts.
-Maker: TypeAlias = Callable[[NDArray[np.float64]], Step]
+Point: TypeAlias = NDArray[np.float64]  # (3,)
+
+# Makes a step for an object whose origin is there when it acts.
+Maker: TypeAlias = Callable[[Point], Step]
 
 _BLOCK = 24_576  # Points: the six or so columns of float32 that are in use together fit in a second cache of 1 MB.
 _IDENTITY = IDENTITY.tobytes()
 _UNKNOWN = (math.nan, math.nan)
+_ZERO: Point = np.zeros(3)
+_ZERO.setflags(write=False)
 
 
 def deform(
@@ -80,16 +84,16 @@ def deform(
     return run.finish()
 
 
-def deform_each(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[np.float64]) -> NDArray[Any]:
-    """Carries points through deformations that are made on the way, each when it is known where the origin is by then.
+def deform_each(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: Point | None = None) -> NDArray[Any]:
+    """Carries points through matrices and deformations that are made on the way, when it is known where the origin is.
 
     Args:
         points: (V, 3), as in `deform`.
-        makers: of one step each; a step carries the origin along as it carries the points.
-        origin: (3,), where the object's origin is before.
+        acts: matrices (4, 4), and makers of one step each; they carry the origin along as they carry the points.
+        origin: (3,), where the object's origin is before; None is (0, 0, 0).
 
     Returns:
-        (V, 3), as `deform` of these steps.
+        (V, 3), as `transform_points` and the `map` of each step would answer one after the other, to the bit.
 
     Raises:
         ShapeError: as `deform`.
@@ -103,16 +107,13 @@ def deform_each(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[n
            [ 1. ,  0. ,  4. ]], dtype=float32)
     """
     run = _Run(points, None)
-    for number, make in enumerate(makers):
-        step = make(origin)
-        extent = run.go(step)
-        if number + 1 < len(makers):
-            origin = carried(step, origin, extent)
+    for number, act in enumerate(acts):
+        origin = _went(run, act, origin, is_last=number + 1 == len(acts))
     return run.finish()
 
 
-def origin_after(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where the origin is after the deformations of `deform_each`: the points count only as far as steps measure them.
+def origin_after(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: Point | None = None) -> Point:
+    """Where the origin is after what `deform_each` does: the points count only as far as steps measure them.
 
     >>> from reactive4d.geometry.deformations.skews import Skew
     >>> bar = np.float32([[0, 0, 0], [0, 0, 4]])
@@ -120,13 +121,35 @@ def origin_after(points: NDArray[Any], makers: Sequence[Maker], origin: NDArray[
     array([2., 0., 4.])
     """
     run = _Run(points, None)
-    for make in makers:
-        step = make(origin)
-        origin = carried(step, origin, run.go(step))
-    return origin
+    for act in acts:
+        origin = _went(run, act, origin, is_last=False)
+    return _ZERO if origin is None else origin
 
 
-def carried(step: Step, origin: NDArray[np.float64], extent: Extent) -> NDArray[np.float64]:
+def _went(run: "_Run", act: Maker | Matrix, origin: Point | None, *, is_last: bool) -> Point | None:
+    """Go on by a matrix or a step; where the origin is then, unless it was the last that wants to know."""
+    if not callable(act):
+        run.carry(act)
+        return moved(act, origin)
+    at = _ZERO if origin is None else origin
+    step = act(at)
+    extent = run.go(step)
+    return None if is_last else carried(step, at, extent)
+
+
+def moved(matrix: Matrix, origin: Point | None) -> Point:
+    """One point (3,) as a matrix leaves it, frozen; None is (0, 0, 0).
+
+    >>> from reactive4d.geometry.transforms import translation
+    >>> moved(translation((1, 2, 3)), np.ones(3))
+    array([2., 3., 4.])
+    """
+    point = matrix[:3, 3].copy() if origin is None else matrix[:3, :3] @ origin + matrix[:3, 3]
+    point.setflags(write=False)
+    return point
+
+
+def carried(step: Step, origin: Point, extent: Extent) -> Point:
     """One point (3,) as a step with this extent leaves it, frozen.
 
     >>> from reactive4d.geometry.deformations.skews import Skew
@@ -215,8 +238,8 @@ class _Run:
         self._out: NDArray[Any] | None = None
         self._is_split = False  # Whether the blocks of `_out` hold columns.
         self._operations: list[tuple[Operation | None, Kernel | None]] = []
-        # The least and the greatest x, y, z, where all operations are done; nan where they are not known.
-        self._known = np.full((3, 2), math.nan, self._rows.dtype)
+        # The least and the greatest x, y, z, once all operations are done; nan where they are not known.
+        self._known: NDArray[Any] | None = None
 
     @property
     def _is_fresh(self) -> bool:
@@ -228,10 +251,12 @@ class _Run:
         if operation is None:
             return
         self._operations.append((operation, None))
-        ends = [*self._known.copy()]
-        operation(ends, [*np.empty((FREE, 2), self._rows.dtype)])
-        for place, row in enumerate(matrix[:3].tolist()):
-            self._known[place] = _UNKNOWN if lone(row) is None else np.sort(ends[place])  # Any nan comes last.
+        known = self._known
+        if known is not None:
+            ends = [*known.copy()]
+            operation(ends, [*np.empty((FREE, 2), known.dtype)])
+            for place, row in enumerate(matrix[:3].tolist()):
+                known[place] = _UNKNOWN if lone(row) is None else np.sort(ends[place])  # Any nan comes last.
 
     def go(self, step: Step, given: Extent | None = None) -> Extent:
         """Go through a step, and say with which extent: the one that is given, else the points'."""
@@ -244,23 +269,25 @@ class _Run:
         if kernel is not None:
             self.carry(back)
             self._operations.append((None, kernel))
-            for place, is_kept in enumerate(step.keeps):
-                if not is_kept:
-                    self._known[place] = _UNKNOWN
+            if self._known is not None:
+                self._known[np.logical_not(step.keeps)] = _UNKNOWN
             self.carry(space)
         return extent
 
     def _extent(self, row: list[float]) -> Extent:
         gauge = _Gauge(row, self._rows.dtype)
         place = gauge.place
-        if place is not None and not math.isnan(self._known[place, 1]):
-            gauge.least, gauge.most = self._known[place].tolist()
+        known = self._known
+        if known is not None and place is not None and not math.isnan(known[place, 1]):
+            gauge.least, gauge.most = known[place].tolist()
         elif self._is_fresh:
             _measured(self._rows, gauge)
         else:
             self._pass(gauge)
         if place is not None and gauge.least <= gauge.most:
-            self._known[place] = gauge.least, gauge.most
+            if known is None:
+                known = self._known = np.full((3, 2), math.nan, self._rows.dtype)
+            known[place] = gauge.least, gauge.most
         return gauge.extent
 
     def finish(self) -> NDArray[Any]:
