@@ -14,10 +14,11 @@ looked at when the channel is asked, and only these channels hear of an edit.
 
 import re
 import weakref
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, overload
 
 from reactive4d.engine import engine
-from reactive4d.errors import Reactive4dError, unknown
+from reactive4d.errors import Reactive4dError, hint, unknown
 from reactive4d.model.attributes import Part, Values, refuse_own
 from reactive4d.model.gates import Gate
 from reactive4d.model.registries import CHANGES, kind_named
@@ -41,6 +42,7 @@ __all__ = [
     "Reshape",
     "Transform",
     "snake",
+    "unknown_attribute",
 ]
 
 Lane = Literal["kind", "surface", "shape", "transform", "paint", "mapping", "note"]
@@ -129,6 +131,8 @@ class Change:
         cls._defaults = tuple([s.default for s in cls.settings])
         if "script" not in vars(cls):
             cls.script = snake(cls.__name__)
+        if "__slots__" not in vars(cls):
+            cls.__setattr__ = _set_known  # what has a dictionary would take any name
         function = getattr(cls, cls.operation, None) if cls.operation else None
         cls.wants = arguments(function) if function is not None else ()
         if function is not None:
@@ -293,6 +297,18 @@ class Change:
 
 def _told(value: Any) -> str:
     return value.__name__ if isinstance(value, type) else getattr(value, "name", None) or repr(value)
+
+
+def unknown_attribute(owner: Any, name: str, known: Iterable[str]) -> AttributeError:
+    """The error for a name that is set and means nothing, with the nearest known one as a hint."""
+    near = unknown(name, known, what="attribute")
+    return hint(AttributeError(f"{type(owner).__name__} has no attribute {name!r}"), near.__notes__[0][len("hint: ") :])
+
+
+def _set_known(self: Change, name: str, value: Any) -> None:
+    if name[:1] != "_" and not hasattr(type(self), name):
+        raise unknown_attribute(self, name, self.indices)
+    object.__setattr__(self, name, value)
 
 
 def snake(name: str) -> str:

@@ -13,9 +13,9 @@ from reactive4d.engine.frames import LOCK
 from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
 from reactive4d.geometry import meshes, transforms
 from reactive4d.geometry.meshes import Mesh
-from reactive4d.model import journeys, masses, methods, places, stacks, surfaces
+from reactive4d.model import journeys, masses, methods, notes, places, stacks, surfaces
 from reactive4d.model.attributes import DEFAULT, INHERITED, Attribute
-from reactive4d.model.changes import LANES, Change, Lane, snake
+from reactive4d.model.changes import LANES, Change, Lane, snake, unknown_attribute
 from reactive4d.model.channels import Channel
 from reactive4d.model.forms import Base, Form
 from reactive4d.model.lanes import Items, Own, acting, entry_of
@@ -82,9 +82,16 @@ class Object:
         super().__init_subclass__(**options)
         _declare(cls)
 
+    born: Place = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name[:1] != "_" and not hasattr(type(self), name):
+            raise unknown_attribute(self, name, type(self).settings)
+        super().__setattr__(name, value)
+
     def __init__(self, **settings: Any) -> None:
         self._name = ""
-        self.born: Place = places.last()
+        self.born = places.last()
         self._attributes: dict[str, Attribute[Any]] = {}
         self._channels: dict[str, Signal[Any]] = {}
         self._own: dict[Lane, Own] = {}
@@ -293,6 +300,31 @@ class Object:
         """
         self.changes.append(change)
         return change
+
+    def send(self, change: C, /, *, to: "Object") -> C:
+        """Put a change in another object's list, and remember in one's own what was sent to whom.
+
+        >>> import reactive4d as r4
+        >>> sun, flower = r4.Sphere(), r4.Cone()
+        >>> _ = sun.send(r4.LookAt(sun.position, forward="z"), to=flower)
+        >>> (receiver, change), = sun.notes.at(0.0)
+        >>> receiver is flower and change is flower.changes[0]
+        True
+        """
+        return notes.send(self, change, to)
+
+    def withdraw(self, change: Change, /) -> None:
+        """Take back a change that it has sent, out of the other's list and its own memory.
+
+        Raises:
+            ValueError: it has not sent it.
+        """
+        notes.withdraw(self, change)
+
+    @property
+    def notes(self) -> Signal[tuple[Any, ...]]:
+        """What the notes in its list store, in their order; for every change that it sent, to whom, and the change."""
+        return self.channel("notes", notes.notes_of)
 
     @property
     def acting(self) -> Signal[tuple[Entry, ...]]:

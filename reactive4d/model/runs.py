@@ -121,7 +121,10 @@ def _given(matrix: Array | None, origin: Array | None) -> dict[str, Any]:
 
 
 def _as_matrix(value: Any, change: type) -> Array:
-    matrix = np.array(value, dtype=np.float64)
+    try:
+        matrix = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ShapeError(f"{change.__name__}.matrix: expected 4 rows of 4 finite numbers, got {value!r}") from None
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise ShapeError(f"{change.__name__}.matrix: expected 4 rows of 4 finite numbers, got shape {matrix.shape}")
     return matrix
