@@ -91,10 +91,9 @@ def test_a_transform_does_not_touch_the_mesh_in_object_space(change: Any) -> Non
 
 
 def test_four_tyres_share_one_surface() -> None:
-    """F106: intra-frame coherence: four tyres, alike up to linear transforms, share one spline surface evaluated once."""
-    tyre = r4.Revolution(
-        r4.Path([(0.25, 0, -0.1), (0.4, 0, -0.1), (0.4, 0, 0.1), (0.25, 0, 0.1)], closed=True), closed=True
-    )
+    """F106: intra-frame coherence: four tyres, alike up to transforms, share one spline surface, evaluated once."""
+    profile = r4.Path([(0.25, 0, -0.1), (0.4, 0, -0.1), (0.4, 0, 0.1), (0.25, 0, 0.1)], closed=True)
+    tyre = r4.Revolution(profile, closed=True)
     tyre.name = "tyre"
     car = r4.Group()
     tyres = {f"tyre{i}": tyre.extend() for i in range(4)}
@@ -154,14 +153,9 @@ def test_each_channel_has_its_own_validity() -> None:
     )
     ball.scale(r4.keys({0: 1.0, 6: 2.0}, interpolation="step"))
     ball.translate(r4.keys({0: (0, 0, 0), 2: (1, 0, 0)}, interpolation="step"))
-    spans = {name: ball.__class__.__dict__.get(name) or getattr(ball, name) for name in ()}
-    assert spans == {}
-    found = {
-        name: (span.start, span.stop)
-        for name, span in [
-            (n, getattr(ball, n).valid(1)) for n in ("topology", "points", "matrix", "paint", "mesh", "kind")
-        ]
-    }
+    names = ("topology", "points", "matrix", "paint", "mesh", "kind")
+    spans = {name: getattr(ball, name).valid(1) for name in names}
+    found = {name: (span.start, span.stop) for name, span in spans.items()}
     inf = math.inf
     assert found == {
         "topology": (-inf, inf), "points": (-inf, 10), "matrix": (-inf, 2), "paint": (-inf, 4), "mesh": (-inf, 2),
