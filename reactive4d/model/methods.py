@@ -67,10 +67,9 @@ def intersect(obj: "Object", origins: ArrayLike, directions: ArrayLike) -> Signa
 
     def hits() -> Hits:
         method = closed_form(obj, "intersect")
-        matrix = obj.matrix.now()
-        if method is None or abs(np.linalg.det(matrix[:3, :3])) < 1e-14:
+        back = _inverse(obj.matrix.now())
+        if method is None or back is None:
             return rays.intersect_mesh(obj.mesh.now(), starts, ways)
-        back = transforms.inverse(matrix)
         distance, normal = method.now()(starts @ back[:3, :3].T + back[:3, 3], ways @ back[:3, :3].T)
         normal = normal @ back[:3, :3]
         length = np.linalg.norm(normal, axis=1, keepdims=True)
@@ -85,17 +84,26 @@ def intersect(obj: "Object", origins: ArrayLike, directions: ArrayLike) -> Signa
 def inside(obj: "Object") -> Callable[[ArrayLike], NDArray[np.bool_]]:
     """A function that says which points of the world lie inside of an object; only inside of an evaluation."""
     method = closed_form(obj, "contains")
-    matrix = obj.matrix.now()
-    if method is None or abs(np.linalg.det(matrix[:3, :3])) < 1e-14:
+    back = _inverse(obj.matrix.now())
+    if back is None:
+        return lambda points: np.zeros(len(_rows(points, "points")), np.bool_)
+    if method is None:
         mesh = obj.mesh.now()
         return lambda points: insides.inside(mesh, points)
-    back = transforms.inverse(matrix)
     answer = method.now()
 
     def asked(points: ArrayLike) -> NDArray[np.bool_]:
         return np.asarray(answer(np.asarray(points, dtype=np.float64) @ back[:3, :3].T + back[:3, 3]))
 
     return asked
+
+
+def _inverse(matrix: Array) -> Array | None:
+    """From world to object space; None where the matrix flattens the object, so that it has no inside."""
+    try:
+        return transforms.inverse(matrix)
+    except ShapeError:
+        return None
 
 
 def contains(obj: "Object", points: ArrayLike) -> Signal[NDArray[np.bool_]]:
