@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.errors import ShapeError, hint
 from reactive4d.geometry import transforms
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.changes import Reshape
@@ -18,7 +19,9 @@ Array = NDArray[Any]
 
 def _line(points: Array, lines: Any) -> tuple[Array, bool]:
     """The points of a shape in their order, and whether it comes back to the first."""
-    order = np.arange(len(points)) if lines is None else np.asarray(lines)
+    if lines is None:
+        raise hint(ShapeError("a surface is made of a shape, and here is no outline"), "such as a Circle, Star or Path")
+    order = np.asarray(lines)
     closed = bool(len(order) > 1 and order[0] == order[-1])
     return np.asarray(points, dtype=np.float64)[order[:-1] if closed else order], closed
 
