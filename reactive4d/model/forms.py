@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from reactive4d.engine import Formula
 from reactive4d.errors import EvaluationError, ShapeError, hint
 from reactive4d.geometry import transforms
+from reactive4d.geometry.deformations.stacks import moved
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.passes import Passed
 from reactive4d.model.places import Entry, Place
@@ -269,17 +270,7 @@ class Made(Form):
 
 def carried(form: Form, name: str, matrix: Signal[Any], origin: Signal[Any] | None) -> Signal[Any]:
     """The origin carried on by a matrix."""
-    if origin is None:
-        return Stage(form, name, _offset, matrix)
-    return Stage(form, name, _moved, matrix, origin)
-
-
-def _offset(matrix: Array) -> Array:
-    return matrix[:3, 3].copy()
-
-
-def _moved(matrix: Array, point: Array) -> Array:
-    return matrix[:3, :3] @ point + matrix[:3, 3]
+    return Stage(form, name, moved, matrix, *([] if origin is None else [origin]))
 
 
 class Deformed(Made):

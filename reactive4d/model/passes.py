@@ -71,7 +71,7 @@ class Passed(Signal[Array]):
         asked, self.asked = self.asked, (task.t, task.point)
         # Asked again for the time for which it was asked last, something is being edited while the clock stands: each
         # form shall remember its points, since the next edit may be one of the top form alone.
-        if asked == self.asked or task.naive is not None:
+        if not last or asked == self.asked or task.naive is not None:
             return last
         known = next((place for place in range(last, 0, -1) if _is_known(links[place].points_if_made(), task)), 0)
         if _moves(links[known].points(), task):

@@ -144,7 +144,7 @@ def test_a_ring_closes():
 def test_limits_do_not_show_in_the_neighbours():
     """What lies between the limits is bent alike to the bit, whether the rest of its block lies there too or not."""
     points = np.random.default_rng(2).uniform(-1.0, 1.0, (4_000, 3)).astype(np.float32)
-    points[:20, ::2] = np.float32([[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] * 5)
+    points[:20, ::2] = np.array([[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] * 5)
     inside = np.abs(points[:, 2]) < 0.5
     for angle in (1.3, -1.3):
         bend = Bend(angle, 0.3, lower=-0.5, upper=0.5)

@@ -112,7 +112,7 @@ def evaluated(ask: Callable[[], Any]) -> list[str]:
     return [event.name for event in events if event.kind == "evaluated" and event.name.endswith(".points")]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     st.lists(a_change(), min_size=1, max_size=5),
     st.integers(0, 2),

@@ -137,7 +137,7 @@ def _went(run: "_Run", act: Maker | Matrix, origin: Point | None, *, is_last: bo
     return None if is_last else carried(step, at, extent)
 
 
-def moved(matrix: Matrix, origin: Point | None) -> Point:
+def moved(matrix: Matrix, origin: Point | None = None) -> Point:
     """One point (3,) as a matrix leaves it, frozen; None is (0, 0, 0).
 
     >>> from reactive4d.geometry.transforms import translation
