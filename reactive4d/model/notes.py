@@ -70,6 +70,8 @@ def notes_of(obj: "Object") -> tuple[Any, ...]:
 
 def send(sender: "Object", change: C, to: "Object") -> C:
     """Put a change in the list of another object, and a note of it in one's own: one edit."""
+    if not hasattr(to, "changes"):
+        raise ShapeError(f"{sender.name}.send: expected an object to send it to, got {to!r}")
     with engine.transaction():
         to.changes.append(change)
         sender.changes.append(Sent(to, change))
