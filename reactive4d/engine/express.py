@@ -224,6 +224,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                     ):
                         deps.clear()
                         frame.raised = frame.handed = None
+                        del frame.cell  # else the thread would keep it alive
                         me.spare = frame
                     else:
                         is_usual = False

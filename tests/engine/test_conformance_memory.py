@@ -153,3 +153,20 @@ def test_links_of_a_cell_that_reads_others_by_turns_do_not_pile_up(cached: Case)
         for source in sources[:90]:
             source.set_content(-1.0)
         assert not [event for event in log if event.kind == "marked"]
+
+
+def test_what_was_evaluated_last_is_kept_alive_by_nobody() -> None:
+    """
+    A thread keeps what it needs for its next rule, but not the cell whose rule ran last.
+
+        s --> view (dropped)
+    """
+    engine = make_engine()
+    s = Source(1.0, name="s", engine=engine)
+    view = Computed(lambda: s.now() * 2.0, name="view", engine=engine)
+    ref = weakref.ref(view)
+    for value in (1.0, 2.0, 3.0):
+        s.set_content(value)
+        assert view.at(0.0) == 2.0 * value
+    del view
+    assert living([ref]) == 0
