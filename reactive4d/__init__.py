@@ -43,6 +43,7 @@ from reactive4d.model.objects import Object
 from reactive4d.model.outlines import Outline, Outlines
 from reactive4d.model.reshapings import Extrude, Lathe
 from reactive4d.model.scenes import Scene
+from reactive4d.model.selections import Select, Selecting
 from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Places, Reference, Text, Vector
 from reactive4d.model.tables import Table
 from reactive4d.model.transforms import LinkedXForm, LookAt, Matrix, Mirror, Orient, Rotate, Scale, Shear, Translate
@@ -137,6 +138,8 @@ __all__ = [
     "Rotation",
     "Scale",
     "Scene",
+    "Select",
+    "Selecting",
     "Shade",
     "ShapeError",
     "Shear",

@@ -285,6 +285,9 @@ class Deformed(Made):
         change = self.entry.change
         act, wanted = step(type(change))
         position = self.position() if "position" in wanted else None
+        selection = self.below.part("selection")
+        if selection is not None:
+            return self._partly(name, act, selection, position)
         if change.is_stepped:
             return self._stepped(name, act, position)
         if name == "origin":
@@ -295,6 +298,28 @@ class Deformed(Made):
             return as_part("points", act(values, {"points": before, "position": origin}), kind)
 
         return Stage(self, name, points, self.placed(), change.values, *([] if position is None else [position]))
+
+    def _partly(self, name: str, act: Step, selection: Signal[Any], position: Signal[Any] | None) -> Signal[Any] | None:
+        """The selected points as if there were no others; the origin stays, which is none of them."""
+        if name != "points":
+            return self.position() if name == "origin" else None
+        change = type(self.entry.change)
+
+        def partly(before: Any, values: Any, chosen: Any, origin: Array = ORIGIN) -> Any:
+            if not chosen.any():
+                return before
+            some = before[chosen]
+            if change.is_stepped:
+                one = act(values, {"position": origin})
+                moved = one.map(some, one.extent(some))
+            else:
+                moved = as_part("points", act(values, {"points": some, "position": origin}), change)
+            after = before.copy()
+            after[chosen] = moved
+            return after
+
+        inputs = [self.placed(), self.entry.change.values, selection]
+        return Stage(self, name, partly, *inputs, *([] if position is None else [position]))
 
     def _mapped_origin(self, act: Step) -> Signal[Any] | None:
         """The origin is one more point: the function of a user's deformation is pointwise."""

@@ -18,7 +18,19 @@ Array = NDArray[Any]
 
 
 class Selecting(Change):
-    """A change that selects points. Its function `select` answers (V,) truth values; it may want `points`."""
+    """A change that selects points. Its function `select` answers (V,) truth values; it may want `points`.
+
+    >>> import reactive4d as r4
+    >>> class Top(r4.Selecting):
+    ...     above = r4.Float(0.0)
+    ...     @staticmethod
+    ...     def select(above, points):
+    ...         return points[:, 2] > above
+    >>> box = r4.Box()
+    >>> _ = box.apply(Top())
+    >>> box.selection.at(0.0).sum()
+    np.int64(12)
+    """
 
     __slots__ = ()
 

@@ -62,9 +62,12 @@ class Path(Object):
     array([1., 1., 0.])
     """
 
+    hull = "controls"
+
     controls = Places(((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), fewest=2, doc="the control points")
     interpolation = Choice("catmull_rom", options=curves.KINDS, doc="how the curve goes by the control points")
     degree = Integer(3, low=1, high=12, doc="of a B-spline")
+    deforms = Choice("surface", options=("surface", "hull"), doc="what deformations move: all, or the control points")
     closed = Flag(False, doc="whether it comes back to the first point")
     samples = Integer(64, low=1, doc="how many straight pieces it is drawn with")
 
