@@ -56,7 +56,6 @@ class Run(Signal[Array], Formula):
         super().__init__(self._product, name="", engine=entries[0].change.values.engine)
         values = tuple([entry.change.values for entry in entries])
         with LOCK:
-            link(self, values)  # what is assigned to a change concerns it, though it reads past the change
             for one in values:
                 one.follow(self)
             self.rewire()
@@ -72,6 +71,8 @@ class Run(Signal[Array], Formula):
             parts = values.inputs or (values,)
             inputs.extend(parts)
             plan.append((len(parts), values.merge))
+        # What is assigned to a change concerns it, though it reads past the change: so the engine lets go of that link.
+        link(self, tuple([entry.change.values for entry in self.entries]))
         self.plan = tuple(plan)
         self.inputs = tuple(inputs)
         self.sole = None
