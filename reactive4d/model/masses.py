@@ -68,5 +68,5 @@ def solid(obj: "Object") -> Any:
     if method is not None:
         return method.now()
     faces = obj.form.now().need("faces").now()
-    groups = groups_of(obj).now()
+    groups = groups_of(obj)
     return solids.solid(obj.points.now(), faces, obj.weld.now(), uv=obj.uv.now(), groups=groups)

@@ -1,6 +1,7 @@
-"""Palettes: the colours of an aggregate's faces, and which face has which, so that booleans can keep them.
+"""Where the faces of an aggregate come from, so that booleans can keep their colours.
 
-Both are signals of their own: a surface is not imported anew because one of its colours fades.
+Where they come from is a matter of the surface, how they are painted one of colours: a surface is not imported or
+combined anew because a colour fades.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -8,35 +9,37 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d.arrays import freeze
-from reactive4d.signals.facade import Signal
+from reactive4d.model.forms import Made
 
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["face_colors", "groups_of", "palette_of"]
+__all__ = ["colors_of", "groups_of", "sources_of"]
 
 
-def face_colors(obj: "Object") -> NDArray[np.float32] | None:
-    """(F, 4) where faces have colours of their own, else None; only inside of an evaluation."""
-    mesh = obj.surface.now()
-    colors = mesh.attributes.get("colors")
-    return colors if colors is not None and len(colors) == len(mesh.faces) > 0 else None
-
-
-def palette_of(obj: "Object") -> Signal[NDArray[np.float32] | None]:
-    """(P, 4), the different colours of the faces, or None where the paint is that of all."""
-    return obj.channel("palette", lambda obj: _told(obj, 0))
-
-
-def groups_of(obj: "Object") -> Signal[NDArray[np.int64] | None]:
-    """(F,), for every face its row in the palette, or None."""
-    return obj.channel("palette.groups", lambda obj: _told(obj, 1))
-
-
-def _told(obj: "Object", which: int) -> Any:
-    colors = face_colors(obj)
-    if colors is None:
+def sources_of(obj: "Object") -> NDArray[np.int32] | None:
+    """(F,), the number of each face's source; None where all are of one. Only inside of an evaluation."""
+    form = obj.form.now()
+    base = form.base
+    while isinstance(form, Made):
+        if form.entry.change.lane == "surface":
+            return None
+        form = form.below
+    if "surface" not in base.kind.methods_by_name:
         return None
-    palette, groups = np.unique(colors, axis=0, return_inverse=True)
-    return freeze(groups.reshape(-1)) if which else freeze(palette)
+    return base.method("surface").now().attributes.get("source")
+
+
+def colors_of(obj: "Object") -> NDArray[np.float32] | None:
+    """(F, 4), the faces' own colours, or None; only inside of an evaluation."""
+    mesh = obj.surface.now()
+    return mesh.attributes.get("colors") if len(mesh.faces) else None
+
+
+def groups_of(obj: "Object") -> NDArray[Any] | None:
+    """(F,), which faces a boolean is to tell from others; where the kind names no sources, those of other colours."""
+    sources = sources_of(obj)
+    if sources is not None or "colors" not in obj.form.now().base.kind.methods_by_name:
+        return sources
+    colors = colors_of(obj)
+    return None if colors is None else np.unique(colors, axis=0, return_inverse=True)[1].reshape(-1)

@@ -64,7 +64,9 @@ def understood(obj: "Object", kind: "type[Object]", name: str) -> Any:
         if prototype is None:
             return wanted.default_value
         obj = prototype
-    return wanted.check(obj.attribute(name).now())
+    content = wanted.admit(obj.attribute(name).now())
+    alive = wanted.signal(content)  # an outline, say, of an object that the setting names
+    return wanted.constant(content) if alive is None else wanted.check(alive.now())
 
 
 def kind_of(obj: "Object") -> "type[Object]":

@@ -12,7 +12,7 @@ from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.solids import Solid
 from reactive4d.model.forms import Base
 from reactive4d.model.objects import Object
-from reactive4d.model.palettes import face_colors, palette_of
+from reactive4d.model.palettes import colors_of, groups_of, sources_of
 from reactive4d.model.settings import Held
 from reactive4d.model.tables import Table
 
@@ -69,8 +69,37 @@ def _solid_members(obj: Object) -> list[Object]:
 
 
 def _together(obj: Object) -> Mesh:
-    """The meshes of the members, side by side."""
-    return joined([member.mesh.now() for member in _solid_members(obj)])
+    """The members in world space, side by side; which colours they have is asked elsewhere."""
+    bare: list[Mesh] = []
+    sources: list[Any] = []
+    count = 0
+    for member in _solid_members(obj):
+        mesh = _bare(member)
+        own = sources_of(member)
+        numbers = np.zeros(len(mesh.faces), np.int32) if own is None else own
+        sources.append(numbers + np.int32(count))
+        count += _many(member)
+        bare.append(mesh)
+    mesh = joined(bare)
+    return mesh.with_attributes(source=np.concatenate(sources)) if sources else mesh
+
+
+def _many(obj: Object) -> int:
+    """How many sources an object's solid has, whatever their paints are."""
+    form = obj.form.now()
+    if isinstance(form, Base) and "solid" in form.kind.methods_by_name:
+        return len(obj.solid.now().sources)
+    groups = groups_of(obj)
+    return 1 if groups is None else int(groups.max(initial=0)) + 1
+
+
+def _bare(obj: Object) -> Mesh:
+    """The mesh in world space without colours."""
+    if "colors" not in obj.form.now().base.kind.methods_by_name:
+        return obj.mesh.now()
+    parts = {"uv": obj.uv.now(), "weld": obj.weld.now()}
+    mesh = Mesh(obj.points.now(), obj.topology.now(), {k: part for k, part in parts.items() if part is not None})
+    return mesh.transformed(obj.matrix.now())
 
 
 def _one_after_the_other(obj: Object) -> Any:
@@ -97,18 +126,34 @@ def joined(meshes: list[Mesh]) -> Mesh:
     return Mesh(points, faces, attributes)
 
 
+def paints_of(obj: Object) -> list[Any]:
+    """The paint of each source of an object's solid, from left to right; only inside of an evaluation."""
+    form = obj.form.now()
+    sources = sources_of(obj)
+    if sources is None:
+        colors = colors_of(obj)
+        return [obj.paint.now()] if colors is None else list(np.unique(colors, axis=0))
+    parts: list[Object] = []
+    if issubclass(form.base.kind, Combination):
+        parts = list(leaves(_tree_of(obj)))
+    elif issubclass(form.base.kind, Group):
+        parts = _solid_members(obj)
+    paints = [paint for part in parts for paint in paints_of(part)]
+    if isinstance(form, Base) and "solid" in form.kind.methods_by_name:
+        return paints
+    # A solid that was imported has sources up to the last one of which there are faces.
+    count = int(sources.max(initial=0)) + 1
+    return [*paints[:count], *[obj.paint.now()] * (count - len(paints))]
+
+
 def _painted(obj: Object) -> Any:
-    """(F, 4), each member's paint on its faces."""
-    rows = [_painted_faces(member) for member in _solid_members(obj)]
-    return freeze(np.concatenate(rows)) if rows else freeze(np.zeros((0, 4), np.float32))
-
-
-def _painted_faces(obj: Object) -> Any:
-    """(F, 4), the colours that its own members have, or its paint on all faces."""
-    colors = face_colors(obj)
-    if colors is not None:
-        return colors
-    return np.tile(obj.paint.now().astype(np.float32), (len(obj.topology.now()), 1))
+    """(F, 4), the paint of each face's source."""
+    sources = obj.surface_of_kind().now().attributes.get("source")
+    if sources is None or not len(sources):
+        return freeze(np.zeros((0, 4), np.float32))
+    parts = _solid_members(obj) if issubclass(obj.kind.now(), Group) else leaves(_tree_of(obj))
+    paints = [paint for part in parts for paint in paints_of(part)]
+    return freeze(np.array(paints, np.float32)[sources])
 
 
 class Group(Object):
@@ -213,21 +258,6 @@ def _surface(obj: Object) -> Mesh:
     return solids.mesh(obj.solid_of_kind().now())
 
 
-def _paints(obj: Object) -> list[Any]:
-    """The paint of each source of a solid, from left to right; only inside of an evaluation."""
-    form = obj.form.now()
-    if isinstance(form, Base) and issubclass(form.kind, Combination):
-        return [paint for leaf in leaves(_tree_of(obj)) for paint in _paints(leaf)]
-    palette = palette_of(obj).now()
-    return [obj.paint.now()] if palette is None else list(palette)
-
-
-def _colors(obj: Object) -> Any:
-    source = obj.surface_of_kind().now().attributes["source"]
-    paints = [paint for leaf in leaves(_tree_of(obj)) for paint in _paints(leaf)]
-    return freeze(np.array(paints, np.float32)[source])
-
-
 class Combination(Object):
     """Solids combined like sets: a tree of unions `|`, intersections `&` and differences `-`; the tree may vary.
 
@@ -246,7 +276,7 @@ class Combination(Object):
     table = Table(
         solid=lambda obj: _solid(obj),
         surface=lambda obj: _surface(obj),
-        colors=lambda obj: _colors(obj),
+        colors=lambda obj: _painted(obj),
         volume=lambda obj: solids.volume(obj.solid_of_kind().now()),
     )
 
