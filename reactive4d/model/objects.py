@@ -85,8 +85,13 @@ class Object:
     born: Place = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name[:1] != "_" and not hasattr(type(self), name):
-            raise unknown_attribute(self, name, type(self).settings)
+        if name[:1] != "_":
+            known = getattr(type(self), name, None)
+            if known is None and not hasattr(type(self), name):
+                raise unknown_attribute(self, name, type(self).settings)
+            if isinstance(known, property) and known.fset is None:
+                error = AttributeError(f"{self.name}.{name} is answered, not set: it follows from settings and changes")
+                raise hint(error, f"apply a change, or set one of {', '.join(type(self).settings)}")
         super().__setattr__(name, value)
 
     def __init__(self, **settings: Any) -> None:
