@@ -91,6 +91,9 @@ class Form:
         """Make a part when it is first wanted."""
         raise NotImplementedError
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}>"
+
     def need(self, name: str) -> Signal[Any]:
         """A part that must be there.
 

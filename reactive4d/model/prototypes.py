@@ -1,6 +1,5 @@
 """Prototypes: the object whose changes and settings another one has too."""
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import Source
@@ -103,26 +102,11 @@ def refuse_circle(obj: "Object", prototype: Any) -> None:
     """Raise if an object would become its own prototype, by way of others or not.
 
     Raises:
-        CycleError: it would, at some time of keys; the path is named. What other signals answer is found out when one
-            asks.
+        CycleError: it would; the path is named. Where a prototype varies, circles are found when one asks.
     """
-    seen: set[int] = set()
-    todo: list[tuple[Any, tuple[Any, ...]]] = [(x, (obj,)) for x in _possible(prototype)]
-    while todo:
-        found, path = todo.pop()
-        if found is obj:
-            names = " -> ".join([p.name for p in (*path, found)])
-            raise CycleError(f"{obj.name} would be its own prototype: {names}")
-        if id(found) not in seen:
-            seen.add(id(found))
-            todo.extend([(x, (*path, found)) for x in _possible(found.prototype_content)])
-
-
-def _possible(content: Any) -> list[Any]:
-    """The objects that a prototype may be, as far as one sees without asking."""
-    if content is None:
-        return []
-    if not isinstance(content, Signal):
-        return [content]
-    points: Any = getattr(content, "points", None)
-    return [x for x in points.values() if hasattr(x, "prototype_content")] if isinstance(points, Mapping) else []
+    path = [obj]
+    while prototype is not None and not isinstance(prototype, Signal):
+        path.append(prototype)
+        if prototype is obj:
+            raise CycleError(f"{obj.name} would be its own prototype: {' -> '.join([p.name for p in path])}")
+        prototype = prototype.prototype_content

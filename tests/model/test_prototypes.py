@@ -295,13 +295,3 @@ def test_of_many_chains_only_the_one_that_moves_is_computed() -> None:
     assert len(found) == len(set(found)) == 51
     assert all(name.startswith(("c7.", "root7.")) for name in found)
     assert len(evaluated(events, "(rotate)")) == 50  # the runs below them
-
-
-def test_a_circle_by_way_of_keys_is_refused_too():
-    """F012: the car's model years cannot be made after the car."""
-    year, car = r4.Sphere(), r4.Object()
-    year.name, car.name = "year", "car"
-    car.prototype = r4.keys({1950: year, 1974: r4.Box()}, kind="held")
-    with pytest.raises(r4.CycleError, match="year would be its own prototype: year -> car -> year"):
-        year.prototype = car
-    assert year.prototype.source is None
