@@ -17,7 +17,7 @@ from reactive4d.model.nodes import node_of
 TIMES = [-1.0, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0]
 CHANNELS = (
     "position", "matrix", "points", "topology", "uv", "weld", "mesh", "bounds", "paint", "kind", "methods", "volume",
-    "area", "normals", "acting", "color", "visible", "velocity",
+    "area", "normals", "acting", "color", "visible", "velocity", "notes", "outline",
 )  # fmt: skip
 SHARE = r4.Parameter("model_share", 0.5, bounds=(0.0, 1.0))
 
@@ -125,6 +125,8 @@ class World:
         self.objects.append(self.objects[0].extend())
         self.objects.append(self.objects[3].extend())
         self.objects.append(r4.Group(a=self.objects[0], b=self.objects[3]))
+        self.objects.append(r4.Path([(0, 0, 0), self.objects[0], (1, 2, 0)], interpolation="linear", samples=2))
+        self.objects.append(r4.Revolution(self.objects[6], segments=3))
         for i, obj in enumerate(self.objects):
             obj.name = f"o{i}"
         self.scene = r4.Scene({obj.name: obj for obj in self.objects})
@@ -210,7 +212,7 @@ class World:
         """Edit something; what is refused leaves everything as it was."""
         verb = self.pick(
             ["append", "append", "insert", "remove", "move", "replace", "enable", "enable", "set", "set", "unset",
-             "value", "steps", "steps", "slides", "number", "prototype", "extend", "scene"]
+             "value", "steps", "steps", "slides", "number", "prototype", "extend", "scene", "members", "send"]
         )  # fmt: skip
         self.log.append(verb)
         try:
@@ -318,12 +320,25 @@ class World:
             obj.prototype = other
 
     def edit_extend(self) -> None:
-        if len(self.objects) < 9:
+        if len(self.objects) < 11:
             obj = self.pick(self.objects)
             made = obj.extend()
             made.name = f"o{len(self.objects)}"
             self.tell(obj, made)
             self.objects.append(made)
+
+    def edit_members(self) -> None:
+        group = self.objects[5]
+        some = [self.pick(self.objects) for _ in range(self.choices.number(3))]
+        group.members = {f"m{i}": obj for i, obj in enumerate(some)}
+
+    def edit_send(self) -> None:
+        sender, receiver = self.pick(self.objects), self.pick(self.objects)
+        sent = [change.change.at(0) for change in self.own(sender) if type(change).__name__ == "Sent"]
+        if sent and self.chance(2):
+            sender.withdraw(self.pick(sent))
+        else:
+            sender.send(self.change(), to=receiver)
 
     def edit_scene(self) -> None:
         obj = self.pick(self.objects)
@@ -373,6 +388,8 @@ class World:
     def compare(self, cell: Any, t: float, given: dict[str, Any]) -> None:
         got = answer(lambda: cell.at(t, **given))
         expected = answer(lambda: engine.naive(cell, t, **given))
+        if isinstance(got, type) and isinstance(expected, type) and r4.CycleError in (got, expected):
+            return  # which of several mistakes is met first depends on what is remembered
         if not same(got, expected):
             raise MismatchError(f"{cell.name} at {t} {given}: got {got!r}, expected {expected!r}; after {self.log}")
 
