@@ -18,7 +18,7 @@ from reactive4d.geometry import grids, meshes
 from reactive4d.geometry.formats import glb, obj, off, ply, stl
 from reactive4d.geometry.meshes import Mesh
 
-__all__ = ["KINDS", "LARGEST", "dump", "dumps", "load", "loads"]
+__all__ = ["KINDS", "LARGEST", "dump", "dumps", "load", "loads", "located", "put"]
 
 _READERS: Final[dict[str, Callable[[bytes], Mesh]]] = {
     "off": off.read,
@@ -57,6 +57,31 @@ def load(path: str | Path, *, folder: str | Path | None = None) -> Mesh:
     ...     load("one.off", folder=folder)
     Mesh(3 points, 1 face)
     """
+    place = located(path, folder=folder)
+    try:
+        content = place.read_bytes()
+    except OSError as error:
+        raise ShapeError(f"{path}: cannot be read: {error}") from error
+    return loads(content, _kind(place), name=str(path))
+
+
+def located(path: str | Path, *, folder: str | Path | None = None) -> Path:
+    """Where the file of a mesh lies, if it could be read: it is there, of a kind that is known, and not too large.
+
+    Args:
+        path: of the file.
+        folder: as for `load`.
+
+    Raises:
+        ShapeError: there is no such file, it is too large, or lies outside of the folder.
+        UnknownNameError: there is no such kind of file.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     dump(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), Path(folder) / "one.off")
+    ...     located("one.off", folder=folder).name
+    'one.off'
+    """
     place = Path(path)
     try:
         if folder is not None:
@@ -68,12 +93,12 @@ def load(path: str | Path, *, folder: str | Path | None = None) -> Mesh:
             raise ShapeError(f"{path}: there is no such file")
         if place.stat().st_size > LARGEST:
             raise ShapeError(f"{path}: expected at most {LARGEST} bytes, got {place.stat().st_size}")
-        content = place.read_bytes()
-    except (OSError, ValueError) as error:  # a name with a null is a ValueError
+    except (OSError, RuntimeError, ValueError) as error:  # a name with a null is a ValueError, a loop a RuntimeError
         if isinstance(error, ShapeError):
             raise
         raise ShapeError(f"{path}: cannot be read: {error}") from error
-    return loads(content, _kind(place), name=str(path))
+    _kind(place)
+    return place
 
 
 def loads(content: bytes, kind: str, *, name: str = "") -> Mesh:
@@ -119,15 +144,29 @@ def dump(mesh: Mesh, path: str | Path) -> None:
     ...     [file.name for file in Path(folder).iterdir()]
     ['one.stl']
     """
+    put(path, dumps(mesh, _kind(Path(path))))
+
+
+def put(path: str | Path, content: bytes) -> None:
+    """Write a file; an old one stays until the new one is whole.
+
+    Raises:
+        OSError: it cannot be written.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     put(Path(folder) / "two.txt", b"2")
+    ...     (Path(folder) / "two.txt").read_bytes()
+    b'2'
+    """
     place = Path(path)
-    content = dumps(mesh, _kind(place))
     handle, draft = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        # mkstemp makes files for their owner alone; a saved mesh may be read by others, or as the old one could.
+        # mkstemp makes files for their owner alone; a saved file may be read by others, or as the old one could.
         Path(draft).chmod(place.stat().st_mode & 0o777 if place.exists() else 0o644)
         Path(draft).replace(place)
     except BaseException:
