@@ -181,6 +181,11 @@ class Change:
         self._name = value
 
     @property
+    def is_named(self) -> bool:
+        """Whether it was given a name."""
+        return self._name != ""
+
+    @property
     def contents(self) -> tuple[Any, ...]:
         """What was assigned to its attributes, in their order."""
         return self._contents if self._values is None else self._values.content

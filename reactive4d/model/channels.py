@@ -1,15 +1,19 @@
-"""Channels: what one can ask an object. Each is a signal whose rule looks at the list of changes when it is asked."""
+"""Channels: what one can ask an object. Each is a signal whose rule looks at the list of changes when it is asked.
+
+A question is one that takes more than the object: a share of a path's way, rays, points.
+"""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from reactive4d.engine.kinds import COMPUTED
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.functions import Function
 
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["Channel", "channel"]
+__all__ = ["Channel", "Question", "channel"]
 
 T = TypeVar("T")
 
@@ -39,6 +43,24 @@ class Channel(Signal[T]):
     def rule(self) -> Any:
         """What the object answers."""
         return self.answer(self.object)
+
+
+class Question(Function[T]):
+    """What one can ask an object about something: `path.along(0.5)`.
+
+    Slots:
+        object: that is asked.
+        question: its name, a method of the object's.
+        arguments: what it is about: constants and signals.
+    """
+
+    __slots__ = ("arguments", "object", "question")
+
+    def __init__(self, rule: Callable[[], T], obj: "Object", question: str, *arguments: Any) -> None:
+        self.object = obj
+        self.question = question
+        self.arguments = arguments
+        super().__init__(rule, name=f"{obj.name}.{question}")
 
 
 def channel(answer: Callable[[Any], T]) -> property:

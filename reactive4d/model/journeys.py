@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from reactive4d.errors import EvaluationError
 from reactive4d.geometry import curves
+from reactive4d.model.channels import Question
 from reactive4d.model.masses import closed_form
 from reactive4d.model.settings import Float, is_signal
 from reactive4d.signals.facade import Signal
-from reactive4d.signals.functions import Function
 
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
@@ -31,7 +31,7 @@ def along(obj: "Object", u: Any) -> Signal[Array]:
         own = _chain(obj, at, order=0) if method is None else np.asarray(method.now()(at), dtype=np.float64)
         return matrix[:3, :3] @ own + matrix[:3, 3]
 
-    return Function(point, name=f"{obj.name}.along")
+    return Question(point, obj, "along", share)
 
 
 def tangent_along(obj: "Object", u: Any) -> Signal[Array]:
@@ -45,7 +45,7 @@ def tangent_along(obj: "Object", u: Any) -> Signal[Array]:
         turned = obj.matrix.now()[:3, :3] @ own
         return turned / np.linalg.norm(turned)
 
-    return Function(direction, name=f"{obj.name}.tangent_along")
+    return Question(direction, obj, "tangent_along", share)
 
 
 def _share(obj: "Object", u: Any) -> Any:

@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from reactive4d.errors import ShapeError
 from reactive4d.geometry import insides, rays, transforms
 from reactive4d.geometry.rays import Hits
+from reactive4d.model.channels import Question
 from reactive4d.model.forms import Made
 from reactive4d.model.masses import closed_form
 from reactive4d.signals.facade import Signal
-from reactive4d.signals.functions import Function
 
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
@@ -78,7 +78,7 @@ def intersect(obj: "Object", origins: ArrayLike, directions: ArrayLike) -> Signa
         point = starts + np.where(met, distance, 0.0)[:, None] * ways
         return Hits(distance, point, normal)
 
-    return Function(hits, name=f"{obj.name}.intersect")
+    return Question(hits, obj, "intersect", starts, ways)
 
 
 def inside(obj: "Object") -> Callable[[ArrayLike], NDArray[np.bool_]]:
@@ -109,7 +109,7 @@ def _inverse(matrix: Array) -> Array | None:
 def contains(obj: "Object", points: ArrayLike) -> Signal[NDArray[np.bool_]]:
     """Which points lie inside of an object."""
     asked = _rows(points, "points")
-    return Function(lambda: obj.inside.now()(asked), name=f"{obj.name}.contains")
+    return Question(lambda: obj.inside.now()(asked), obj, "contains", asked)
 
 
 def _rows(values: ArrayLike, name: str) -> Array:

@@ -1,10 +1,12 @@
 """Scenes: named objects, and what a viewer needs of all of them at one time."""
 
 from collections.abc import Iterator, Mapping, MutableMapping
-from typing import Any
+from pathlib import Path
+from typing import Any, Self
 
 from reactive4d.engine import Formula, Source, engine
 from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.model.formats import format_of
 from reactive4d.model.frames import Frame
 from reactive4d.model.nodes import Node, node_of
 from reactive4d.model.objects import Object
@@ -31,6 +33,8 @@ class Contents(Signal[Items], Source):
 class Scene(MutableMapping[str, Object]):
     """Named objects in an order. A scene holds what it names, and names what has no name yet.
 
+    `signals` are signals and values that have a name in its script: variables to be set, parameters to be driven.
+
     >>> import reactive4d as r4
     >>> scene = r4.Scene(ball=r4.Sphere(), table=r4.Box(size=(2, 1, 0.1)))
     >>> frame = scene.at(0.0)
@@ -40,6 +44,8 @@ class Scene(MutableMapping[str, Object]):
 
     def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:
         self._contents = Contents((), name="scene.objects")
+        self.signals: dict[str, Any] = {}
+        self.remembered: Any = None  # how the script read that it was read from, for who writes it
         self._bundles: dict[tuple[Any, ...], Gathered] = {}
         self._root: Function[Root] = Function(self._rooted, name="scene.root")
         self._frame: Function[tuple[Root, Bundle]] = Function(self._shown, name="scene")
@@ -91,6 +97,40 @@ class Scene(MutableMapping[str, Object]):
         for name, obj in given.items():
             if not obj.is_named:
                 obj.name = name
+
+    # -- files -----------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """The scene in a file, a script (.scefo); it is read whole, or not at all.
+
+        Files that the script reads lie in its folder or below.
+
+        Raises:
+            ScriptError: it is no script: with line, column and what was expected there.
+            UnknownNameError: a file of another format.
+            OSError: it cannot be read.
+
+        >>> import tempfile
+        >>> import reactive4d as r4
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     r4.Scene(ball=r4.Sphere(radius=2)).save(f"{folder}/ball.scefo")
+        ...     r4.Scene.load(f"{folder}/ball.scefo")["ball"].radius.at(0.0)
+        2.0
+        """
+        scene = cls()
+        format_of(path).load(Path(path), scene)
+        return scene
+
+    def save(self, path: str | Path) -> None:
+        """Write it into a file, a script (.scefo); an old file stays until the new one is whole.
+
+        Raises:
+            NotWritableError: it holds what no script can say, such as a function of Python's; the file stays.
+            UnknownNameError: a file of another format.
+            OSError: it cannot be written; the file stays.
+        """
+        format_of(path).save(Path(path), self)
 
     # -- what it shows ---------------------------------------------------------------------------------------------
 

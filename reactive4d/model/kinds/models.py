@@ -8,7 +8,7 @@ import numpy as np
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.objects import Object
-from reactive4d.model.settings import Held
+from reactive4d.model.settings import Held, Text
 from reactive4d.model.tables import Table
 
 __all__ = ["Model"]
@@ -22,14 +22,14 @@ def _accepted(value: Any) -> Any:
     return value
 
 
-def _surface(source: Any) -> Mesh:
+def _surface(source: Any, source_folder: Any) -> Mesh:
     if isinstance(source, Mesh):
         return source
     if not source:
         return Mesh(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
     from reactive4d.geometry import files
 
-    return files.load(source)
+    return files.load(source, folder=source_folder)
 
 
 class Model(Object):
@@ -45,6 +45,7 @@ class Model(Object):
     """
 
     source = Held("", accept=_accepted, doc="a Mesh, or the path of a file; nothing if it is not given")
+    source_folder = Text(longest=4096, doc="where a relative path begins; a file outside of it is not read")
 
     table = Table(surface=_surface)
 
