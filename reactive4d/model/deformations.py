@@ -107,7 +107,7 @@ class Twist(Stepped):
 
     angle = Float(unit="deg", doc="over the whole extent along the axis, or between the limits")
     axis = _axis()
-    bias = Float(0.0, doc="0 twists evenly, above 0 more towards the ends, below 0 more at the centre")
+    bias = Float(0.0, low=-10.0, high=10.0, doc="0 twists evenly, above 0 more towards the ends, below 0 at the centre")
     center = _center()
     lower = _limit("lower")
     upper = _limit("upper")
@@ -135,7 +135,7 @@ class Taper(Stepped):
     amount = Float(doc="by how much of itself the section grows over the extent, or between the limits")
     curve = Float(0.0, doc="how much the outline bulges between the ends")
     axis = _axis()
-    effect = Choice("both", options=("both", "x", "y"), doc="which of the two directions across the axis is changed")
+    effect = Choice("both", options=("both", "x", "y", "z"), doc="which coordinate across the axis is scaled")
     is_symmetric = Flag(False, doc="whether it grows from the centre to both sides")
     center = _center()
     lower = _limit("lower")

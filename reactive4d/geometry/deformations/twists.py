@@ -70,13 +70,10 @@ class Twist(Step):
         return reach(self.lower, self.upper, extent) if self.angle else None
 
     def _sides(self, stretch: Reach, extent: Extent) -> tuple[float, float, float]:
-        """The power, and the factors below and above the anchor that leave the ends where they are without bias."""
-        power = 2.0**self.bias
+        """The power, and how far the ends below and above the anchor are from it; at these the bias changes nothing."""
         least = (extent[0] if self.lower is None else self.lower) - stretch.anchor
         most = (extent[1] if self.upper is None else self.upper) - stretch.anchor
-        rate = self.angle / stretch.length
-        below, above = (rate * abs(end) ** (1.0 - power) if end else 0.0 for end in (min(least, 0.0), max(most, 0.0)))
-        return power, below, above
+        return 2.0**self.bias, max(-least, 0.0), max(most, 0.0)
 
     def bind(self, extent: Extent, dtype: Any) -> Kernel | None:
         """The kernel, as `Step.bind` says."""
@@ -85,17 +82,18 @@ class Twist(Step):
             return None
         biased = self.bias != 0.0
         measure = stretch.measure(1.0 if biased else self.angle / stretch.length, dtype)
-        power, below, above = scalars(dtype, *self._sides(stretch, extent)) if biased else scalars(dtype, 1.0, 1.0, 1.0)
+        power, low, high = self._sides(stretch, extent)
+        power, below, above, rate = scalars(dtype, power, low or 1.0, high or 1.0, self.angle / stretch.length)
 
-        def bias(angle: Column, size: Column, factor: Column) -> None:
+        def bias(angle: Column, size: Column, end: Column) -> None:
+            np.copyto(end, above)
+            np.copyto(end, below, where=angle < 0.0)
             np.abs(angle, size)
+            np.divide(size, end, size)  # a share of the way to the end: its power neither overflows nor vanishes there
             np.power(size, power, size)
-            np.copyto(factor, above)
-            np.copyto(factor, below, where=angle < 0.0)
-            np.multiply(size, factor, size)
+            np.multiply(size, end, size)
             np.copysign(size, angle, angle)
-            if self.angle < 0.0:
-                np.negative(angle, angle)
+            np.multiply(angle, rate, angle)
 
         def turn(x: Column, y: Column, z: Column, free: list[Column]) -> None:
             sine, cosine, across = free[0], free[1], free[2]
@@ -123,11 +121,12 @@ class Twist(Step):
             place = stretch.clipped(z) - stretch.anchor
             if self.bias:
                 power, below, above = self._sides(stretch, extent)
-                factor = np.where(place < 0.0, below, above)
+                end = np.where(place < 0.0, below or 1.0, above or 1.0)
+                factor = self.angle / stretch.length
                 # At the centre itself a negative bias has no derivative; the nearest distance that has one is taken.
                 size = np.maximum(np.abs(place), 1e-6 * stretch.length)
-                angle = np.sign(place) * factor * np.abs(place) ** power
-                rate = factor * power * size ** (power - 1.0)
+                angle = np.sign(place) * factor * end * (np.abs(place) / end) ** power
+                rate = factor * power * (size / end) ** (power - 1.0)
             else:
                 rate = np.full_like(z, self.angle / stretch.length)
                 angle = rate * place
