@@ -126,22 +126,33 @@ class Entries(Signal[Items], Source):
         """Where an entry acts in one of them and not in the other."""
         if old is new:
             return []
-        was, now = {entry_of(x): x for x in old}, {entry_of(x): x for x in new}
+        start = 0
+        for x, y in zip(old, new, strict=False):
+            if x is not y:
+                break
+            start += 1
+        was, now = {entry_of(x): x for x in old[start:]}, {entry_of(x): x for x in new[start:]}
         spans: list[tuple[float, float]] = []
         for entry in {**was, **now}:
             before, after = was.get(entry), now.get(entry)
             if before is not after and before != after:
-                spans.extend(_apart(before, after))
+                apart = _apart(before, after)
+                if apart is EVERYWHERE:
+                    return [*EVERYWHERE]
+                spans.extend(apart)
         return spans
 
 
-def _apart(before: Item | None, after: Item | None) -> list[tuple[float, float]]:
+def _apart(before: Item | None, after: Item | None) -> Spans:
     """Where an entry acts either before or after an edit; everywhere if its gate says where."""
     a, b = _acts(before), _acts(after)
-    if a is None or b is None:
-        return list(EVERYWHERE)
+    if a is None or b is None or {a, b} == _ALL_OR_NOTHING:
+        return EVERYWHERE
     ends = sorted({t for span in (*a, *b) for t in span})
-    return [(lo, hi) for lo, hi in pairwise(ends) if _within(lo, a) != _within(lo, b)]
+    return tuple([(lo, hi) for lo, hi in pairwise(ends) if _within(lo, a) != _within(lo, b)])
+
+
+_ALL_OR_NOTHING: set[Spans] = {(), EVERYWHERE}
 
 
 def _acts(item: Item | None) -> Spans | None:
