@@ -1,5 +1,6 @@
 """The changes that come with the package, as an object obeys them; and what it remembers of that."""
 
+import gc
 import math
 from typing import Any
 
@@ -9,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import reactive4d as r4
+from reactive4d.engine import engine
 
 numbers = st.floats(-3, 3)
 points = st.tuples(numbers, numbers, numbers)
@@ -221,6 +223,8 @@ def test_an_effect_that_is_slowed_down_holds_longer() -> None:
 def test_what_does_not_pay_is_forgotten_under_pressure_and_no_answer_changes() -> None:
     """F108, F109: cached while memory allows; the profile tells evaluations, hits and bytes."""
     ball = r4.Sphere(radius=r4.keys({i: 1.0 + i for i in range(30)}, interpolation="step"), segments=64, rings=32)
+    gc.collect()
+    engine.forget()  # what other tests have left
     budget = r4.budget
     try:
         r4.budget = 400_000
