@@ -11,6 +11,7 @@ from reactive4d.errors import (
     EvaluationError,
     ParameterError,
     Reactive4dError,
+    ScriptError,
     ShapeError,
     TimeError,
     UnknownNameError,
@@ -48,6 +49,8 @@ from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint,
 from reactive4d.model.tables import Table
 from reactive4d.model.transforms import LinkedXForm, LookAt, Matrix, Mirror, Orient, Rotate, Scale, Shear, Translate
 from reactive4d.process import explain, graph, log, stats, transaction
+from reactive4d.scefo.binding import dumps, loads
+from reactive4d.scefo.unparsing import NotWritableError
 from reactive4d.signals.algebra import equal, lift, vec
 from reactive4d.signals.choices import where
 from reactive4d.signals.colors import color
@@ -111,6 +114,7 @@ __all__ = [
     "Model",
     "Ngon",
     "Node",
+    "NotWritableError",
     "Note",
     "Object",
     "Opacity",
@@ -138,6 +142,7 @@ __all__ = [
     "Rotation",
     "Scale",
     "Scene",
+    "ScriptError",
     "Select",
     "Selecting",
     "Shade",
@@ -165,11 +170,13 @@ __all__ = [
     "Wave",
     "XForm",
     "color",
+    "dumps",
     "equal",
     "explain",
     "graph",
     "keys",
     "lift",
+    "loads",
     "log",
     "signal",
     "stats",

@@ -102,7 +102,7 @@ class Builder:
         first, *targets, operations = parts
         found: list[Any] = operations_of(operations)
         notes = _notes(first, taken_from_last(found))
-        return Change(tuple(targets), tuple(found), notes=notes, at=first.at)
+        return Change(tuple([x for x in targets if x is not None]), tuple(found), notes=notes, at=first.at)
 
     # -- their parts -----------------------------------------------------------------------------------------------
 

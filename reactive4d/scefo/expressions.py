@@ -12,9 +12,10 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from reactive4d.arrays import ARRAY
-from reactive4d.errors import Reactive4dError, ScriptError, hint
+from reactive4d.errors import ScriptError, hint
 from reactive4d.scefo.functions import FUNCTIONS, LIST, ScriptFunction
 from reactive4d.scefo.operators import apply, is_live
+from reactive4d.scefo.refusals import REFUSALS, near, refused, wrong
 from reactive4d.scefo.trees import (
     Binary,
     Boolean,
@@ -77,18 +78,6 @@ def evaluate(expression: Expression, resolve: Resolve, *, functions: Mapping[str
     return _Evaluation(resolve, functions).of(expression)
 
 
-# How functions of values, ours and NumPy's, refuse what they are given; and what a full stack raises.
-_REFUSALS: Final = (
-    Reactive4dError,
-    TypeError,
-    ValueError,
-    ArithmeticError,
-    LookupError,
-    AttributeError,
-    RecursionError,
-)
-
-
 class _Evaluation:
     """One expression on its way to a value."""
 
@@ -104,12 +93,8 @@ class _Evaluation:
             return _MAKERS[type(x)](self, x)
         except ScriptError:
             raise
-        except _REFUSALS as error:
-            line, column = x.at if x.at.line else (None, None)
-            wrong = ScriptError(str(error) or type(error).__name__, line=line, column=column)
-            for note in getattr(error, "__notes__", ()):
-                wrong.add_note(note)
-            raise wrong from error
+        except REFUSALS as error:
+            raise refused(error, x.at) from error
 
     def path(self, x: Path) -> Any:
         """What the path leads to."""
@@ -119,16 +104,14 @@ class _Evaluation:
         """A function of values."""
         function = self.functions.get(x.function)
         if function is None:
-            line, column = x.at
-            error = ScriptError(f"there is no function {x.function!r}", line=line, column=column)
-            near = difflib.get_close_matches(x.function, self.functions, n=1)
-            raise hint(
-                error, f"did you mean {near[0]!r}?" if near else f"there are {', '.join(sorted(self.functions))}"
-            )
+            error = wrong(f"there is no function {x.function!r}", x.at, expected=("a function",))
+            if not difflib.get_close_matches(x.function, self.functions, n=1):
+                raise hint(error, f"there are {', '.join(sorted(self.functions))}")
+            raise near(error, x.function, self.functions)
         count = len(x.arguments)
         if count < function.least or (function.most is not None and count > function.most):
-            line, column = x.at
-            raise ScriptError(f"{x.function} takes {_counted(function)}, got {count}", line=line, column=column)
+            counted = _counted(function)
+            raise wrong(f"{x.function} takes {counted}, got {count}", x.at, expected=(counted,))
         return function.make(*[self.of(argument) for argument in x.arguments])
 
     def items(self, x: Items) -> Any:
@@ -184,8 +167,7 @@ class _Evaluation:
         points: dict[float, Any] = {}
         for point in x.points:
             if point.time in points:
-                line, column = point.at
-                raise ScriptError(f"a second key at {point.time!r} s", line=line, column=column)
+                raise wrong(f"a second key at {point.time!r} s", point.at, expected=("another time",))
             points[point.time] = self.key(point)
         told: dict[str, Any] = {
             "interpolation": x.interpolation,

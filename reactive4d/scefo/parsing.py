@@ -12,7 +12,7 @@ from reactive4d.scefo.tokens import END, Token, tokens
 from reactive4d.scefo.trees import Script
 from reactive4d.scefo.words import RESERVED
 
-__all__ = ["MOST_LETTERS", "parse", "source"]
+__all__ = ["MOST_LETTERS", "parse", "show", "source"]
 
 MOST_LETTERS: Final = 10_000_000
 _WIDEST: Final = 100  # of a line that is shown
@@ -44,7 +44,7 @@ def parse(text: str, *, file: str | None = None) -> Script:
         return _parsed(text)
     except ScriptError as error:
         error.file = file
-        _show(error, text)
+        show(error, text)
         raise
 
 
@@ -211,7 +211,7 @@ def _shown(token: Token) -> str:
     return text if text.startswith(("'", '"', "`")) else f"'{text}'"
 
 
-def _show(error: ScriptError, text: str) -> None:
+def show(error: ScriptError, text: str) -> None:
     """Add the line with a caret under the place."""
     if error.line is None or error.column is None:
         return

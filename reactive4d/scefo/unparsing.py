@@ -14,6 +14,7 @@ import numpy as np
 from reactive4d.arrays import ARRAY
 from reactive4d.engine import Affine
 from reactive4d.errors import Reactive4dError, ScriptError, hint
+from reactive4d.model.channels import Question
 from reactive4d.scefo.functions import LIST, NAMED
 from reactive4d.scefo.operators import MOST_BITS, WRITTEN_BETWEEN, is_live
 from reactive4d.scefo.trees import (
@@ -57,10 +58,10 @@ from reactive4d.signals.sources import Time, Variable
 from reactive4d.signals.trees import is_a
 from reactive4d.signals.warps import Follow, Warped
 
-__all__ = ["NameOf", "NotWritableError", "Unparsed", "unparse", "unparse_all"]
+__all__ = ["NameOf", "NotWritableError", "Unparsed", "Unparsing", "parts_of", "unparse", "unparse_all"]
 
-# From a signal or an object to its path in the script; None where it has none.
-NameOf: TypeAlias = Callable[[Any], Path | None]
+# From a signal, an object or a value of the model to how a script calls it; None where it has no name.
+NameOf: TypeAlias = Callable[[Any], Expression | None]
 MOST_NODES: Final = 1_000_000  # of all expressions together
 _DEEP: Final = 40  # where expressions are nested deeper, a part of them is named
 
@@ -110,7 +111,7 @@ def unparse(x: Any, name_of: NameOf, *, is_definition: bool = False) -> Expressi
     >>> expression_text(unparse(2 * np.abs(np.sin(np.pi * r4.time)), lambda x: None))
     '2 * abs(sin(3.141592653589793 * time))'
     """
-    return _Unparsing(name_of, None, x if is_definition else None).of(x)
+    return Unparsing(name_of, None, x if is_definition else None).of(x)
 
 
 def unparse_all(roots: Sequence[Any], name_of: NameOf, new_name: Callable[[Signal[Any]], str]) -> Unparsed:
@@ -133,14 +134,23 @@ def unparse_all(roots: Sequence[Any], name_of: NameOf, new_name: Callable[[Signa
     signal (speed) <0, 1.0>, <2, 3.0>;
      speed * 2 speed + 1
     """
-    unparsing = _Unparsing(name_of, new_name, None)
+    unparsing = Unparsing(name_of, new_name, None)
     unparsing.count(roots)
     expressions = tuple([unparsing.of(root) for root in roots])
     return Unparsed(expressions, tuple(unparsing.definitions), tuple(unparsing.names))
 
 
-class _Unparsing:
-    """Signals on their way to expressions; each is written once."""
+class Unparsing:
+    """Signals on their way to expressions; each is written once.
+
+    Args:
+        name_of: how what has a name is called.
+        new_name: a name for a signal that gets a definition; None where there shall be none.
+        root: a signal that is to be taken apart, though it has a name.
+
+    Attributes:
+        definitions: those that became necessary so far, each before its first use.
+    """
 
     __slots__ = ("counts", "definitions", "done", "name_of", "names", "new_name", "nodes", "root", "sizes")
 
@@ -156,7 +166,7 @@ class _Unparsing:
         self.nodes = 0
 
     def count(self, roots: Sequence[Any]) -> None:
-        """How often each signal is used."""
+        """Count how often each signal is used by all that will be written: what is shared is defined."""
         todo = list(_signals(list(roots)))
         for x in todo:
             self.counts[id(x)] = self.counts.get(id(x), 0) + 1
@@ -166,7 +176,7 @@ class _Unparsing:
             if id(x) in seen or self.name_of(x) is not None:
                 continue
             seen.add(id(x))
-            for part in _parts(x):
+            for part in _signals(parts_of(x)):
                 self.counts[id(part)] = self.counts.get(id(part), 0) + 1
                 todo.append(part)
 
@@ -179,7 +189,7 @@ class _Unparsing:
                 todo.pop()
                 continue
             path = None if y is self.root else self.name_of(y)
-            missing = [part for part in _parts(y) if id(part) not in self.done] if path is None else []
+            missing = [part for part in _signals(parts_of(y)) if id(part) not in self.done] if path is None else []
             if missing:
                 todo.extend(reversed(missing))
                 continue
@@ -190,7 +200,7 @@ class _Unparsing:
 
     def size(self, x: Any) -> int:
         """How many parts the expression of a signal has."""
-        size = 1 + sum(self.sizes[id(part)] for part in _parts(x))
+        size = 1 + sum(self.sizes[id(part)] for part in _signals(parts_of(x)))
         if size > MOST_NODES:
             raise NotWritableError(f"{x.name} has more than {MOST_NODES} parts")
         return size
@@ -334,6 +344,10 @@ class _Unparsing:
         """A signal that one sets, with what it is set to."""
         return Call("variable", (self.part(x.source),))
 
+    def question(self, x: Any) -> Expression:
+        """What an object is asked about something."""
+        return Call(x.question, (self.part(x.object), *[self.part(argument) for argument in x.arguments]))
+
     def key_slope(self, x: Any) -> Expression:
         """The derivative of keys."""
         expression = self.part(x.original)
@@ -390,54 +404,54 @@ class _Unparsing:
         return Point(t, self.part(key.value), **told)
 
 
-_LITERALS: Final[Mapping[Any, Callable[[_Unparsing, Any], Expression]]] = MappingProxyType(
+_LITERALS: Final[Mapping[Any, Callable[[Unparsing, Any], Expression]]] = MappingProxyType(
     {
         type(None): lambda _, x: Nothing(),
         bool: lambda _, x: Boolean(x),
-        int: _Unparsing.number,
-        float: _Unparsing.number,
+        int: Unparsing.number,
+        float: Unparsing.number,
         str: lambda _, x: Text(x),
-        tuple: _Unparsing.items,
-        list: _Unparsing.items,
-        dict: _Unparsing.record,
-        ARRAY: _Unparsing.array,
-        Rotation: _Unparsing.rotation,
+        tuple: Unparsing.items,
+        list: Unparsing.items,
+        dict: Unparsing.record,
+        ARRAY: Unparsing.array,
+        Rotation: Unparsing.rotation,
     }
 )
-_WRITERS: Final[Mapping[type, Callable[[_Unparsing, Any], Expression]]] = MappingProxyType(
+_WRITERS: Final[Mapping[type, Callable[[Unparsing, Any], Expression]]] = MappingProxyType(
     {
-        Time: _Unparsing.time,
-        Operation: _Unparsing.operation,
-        Choice: _Unparsing.choice,
-        Warped: _Unparsing.warped,
-        Follow: _Unparsing.follow,
-        Variable: _Unparsing.variable,
-        Keys: _Unparsing.keys,
-        KeySlope: _Unparsing.key_slope,
-        KeyArea: _Unparsing.integral,
-        Difference: _Unparsing.derivative,
-        Quadrature: _Unparsing.integral,
-        Reflected: _Unparsing.reflected,
+        Time: Unparsing.time,
+        Operation: Unparsing.operation,
+        Choice: Unparsing.choice,
+        Warped: Unparsing.warped,
+        Follow: Unparsing.follow,
+        Variable: Unparsing.variable,
+        Question: Unparsing.question,
+        Keys: Unparsing.keys,
+        KeySlope: Unparsing.key_slope,
+        KeyArea: Unparsing.integral,
+        Difference: Unparsing.derivative,
+        Quadrature: Unparsing.integral,
+        Reflected: Unparsing.reflected,
     }
 )
 
 
-def _parts(x: Any) -> list[Any]:
-    """The signals that a signal is made of."""
-    parts: tuple[Any, ...] = ()
+def parts_of(x: Any) -> tuple[Any, ...]:
+    """What a signal is made of: signals and constants; nothing where that is not known."""
     if is_a(x, Operation):
-        parts = x.operands
-    elif is_a(x, Choice):
-        parts = (x.condition, x.yes, x.no)
-    elif is_a(x, Follow):
-        parts = (x.original, *x.parameters)
-    elif is_a(x, Warped, KeySlope, KeyArea, Difference, Quadrature, Reflected):
-        parts = (x.original,)
-    elif is_a(x, Keys):
-        parts = tuple([key.value for key in x.curve.keys])
-    elif is_a(x, Variable):
-        parts = (x.source,)
-    return list(_signals(parts))
+        return x.operands
+    if is_a(x, Choice):
+        return (x.condition, x.yes, x.no)
+    if is_a(x, Follow):
+        return (x.original, *x.parameters)
+    if is_a(x, Warped, KeySlope, KeyArea, Difference, Quadrature, Reflected):
+        return (x.original,)
+    if is_a(x, Keys):
+        return tuple([key.value for key in x.curve.keys])
+    if is_a(x, Variable):
+        return (x.source,)
+    return (x.object, *x.arguments) if is_a(x, Question) else ()
 
 
 def _signals(x: Any) -> Iterator[Any]:
