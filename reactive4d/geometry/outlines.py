@@ -27,6 +27,7 @@ __all__ = [
     "polygon",
     "rectangle",
     "resampled",
+    "second_moments",
     "star",
     "triangles",
 ]
@@ -180,6 +181,23 @@ def centroid(outline: Outline) -> Floats:
     if abs(total) <= 1e-15 * size * size:
         return freeze(np.concatenate(rings).mean(axis=0) if rings else moment)
     return freeze(moment / total)
+
+
+def second_moments(outline: Outline) -> tuple[float, float, float]:
+    """The integrals of x², y² and x y about the centroid over what an outline covers, m⁴.
+
+    >>> second_moments(rectangle((2, 1)))  # w³ h / 12 and w h³ / 12
+    (0.6666666666666666, 0.16666666666666666, 0.0)
+    """
+    middle = centroid(outline)
+    total = np.zeros(3)
+    for ring in oriented(outline):
+        (x, y), (u, v) = (ring - middle).T, (np.roll(ring, -1, axis=0) - middle).T
+        cross = x * v - u * y
+        total[0] += cross @ (x * x + x * u + u * u) / 12.0
+        total[1] += cross @ (y * y + y * v + v * v) / 12.0
+        total[2] += cross @ (x * v + 2.0 * (x * y + u * v) + u * y) / 24.0
+    return float(total[0]), float(total[1]), float(total[2])
 
 
 def resampled(contour: ArrayLike, count: int) -> Floats:

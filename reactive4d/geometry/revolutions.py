@@ -22,7 +22,7 @@ from reactive4d.errors import ShapeError
 from reactive4d.geometry import grids, outlines
 from reactive4d.geometry.meshes import Mesh
 
-__all__ = ["area", "center_of_mass", "faces", "mesh", "points", "uv", "volume", "weld"]
+__all__ = ["area", "center_of_mass", "faces", "inertia", "mesh", "points", "uv", "volume", "weld"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -274,6 +274,42 @@ def center_of_mass(
     return freeze(shape.center + mixed / first * up + out * (math.cos(middle) * x + math.sin(middle) * y))
 
 
+def inertia(
+    profile: ArrayLike,
+    *,
+    axis: ArrayLike = _UP,
+    center: ArrayLike = _ORIGIN,
+    angle: float = math.tau,
+    closed: bool = False,
+) -> Floats:
+    """The inertia of the round solid about its centre of mass for a density of 1: (3, 3), m⁵.
+
+    The profile lies in one half-plane through the axis.
+
+    >>> drum = inertia([(0, -1), (1, -1), (1, 1), (0, 1)])  # mass 2π: m r² / 2 about its axis
+    >>> (drum.diagonal() / math.pi).round(12).tolist()
+    [1.166666666667, 1.166666666667, 1.0]
+    """
+    shape = _prepared(profile, axis=axis, center=center, caps=not closed, closed=closed)
+    turned = min(abs(angle), math.tau)
+    _, first, second, mixed = _moments(shape)
+    mass, half = first * turned, turned / 2.0
+    if mass == 0.0:
+        return freeze(np.zeros((3, 3)))
+    cubes, squares, heights = _higher_moments(shape._replace(height=shape.height - mixed / first))
+    # In the frame whose x axis points to the middle of the turn, integrals of odd powers of y vanish.
+    out = second * 2.0 * math.sin(half) / mass
+    spread = np.zeros((3, 3))
+    spread[0, 0] = cubes * (half + math.sin(turned) / 2.0) - mass * out * out
+    spread[1, 1] = cubes * (half - math.sin(turned) / 2.0)
+    spread[2, 2] = heights * turned
+    spread[0, 2] = spread[2, 0] = squares * 2.0 * math.sin(half)
+    middle = float(shape.azimuth[int(np.argmax(shape.radius))]) + math.copysign(half, angle)
+    x, y, up = shape.frame
+    basis = np.stack([math.cos(middle) * x + math.sin(middle) * y, math.cos(middle) * y - math.sin(middle) * x, up])
+    return freeze(basis.T @ (np.trace(spread) * np.eye(3) - spread) @ basis)
+
+
 def _strips(
     count: int, angle: float, segments: int, closed: bool, smooth: bool
 ) -> tuple[grids.Strip, grids.Strip, bool]:
@@ -344,6 +380,17 @@ def _moments(shape: _Profile) -> tuple[float, float, float, float]:
     second = cross @ (r * r + r * r2 + r2 * r2) / 12.0
     mixed = cross @ (r * (2 * h + h2) + r2 * (h + 2 * h2)) / 24.0
     return float(cross.sum()) / 2.0, float(first), float(second), float(mixed)
+
+
+def _higher_moments(shape: _Profile) -> tuple[float, float, float]:
+    """Over the same area the integrals of r³, r² h and r h²."""
+    r, h = shape.radius, shape.height
+    s, k = np.roll(r, -1), np.roll(h, -1)
+    cross = r * k - s * h
+    cubes = cross @ ((r + s) * (r * r + s * s)) / 20.0
+    squares = cross @ (r * r * (3 * h + k) + 2 * r * s * (h + k) + s * s * (h + 3 * k)) / 60.0
+    heights = cross @ (h * h * (3 * r + s) + 2 * h * k * (r + s) + k * k * (r + 3 * s)) / 60.0
+    return float(cubes), float(squares), float(heights)
 
 
 def _frame(axis: Floats) -> Floats:

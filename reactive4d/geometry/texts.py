@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from reactive4d.errors import ShapeError, unknown
 from reactive4d.geometry import prisms
 from reactive4d.geometry.meshes import Mesh
-from reactive4d.geometry.outlines import area
 
-__all__ = ["ALIGNMENTS", "FONTS", "mesh", "outline", "volume"]
+__all__ = ["ALIGNMENTS", "FONTS", "area", "center_of_mass", "inertia", "mesh", "outline", "volume"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Align: TypeAlias = Literal["left", "center", "right"]
@@ -116,7 +115,43 @@ def volume(text: str, *, height: float = 1.0, depth: float = 0.2, font: str = "s
     >>> round(volume("I", height=2, depth=3) / volume("I"), 6)
     60.0
     """
-    return area(outline(text, height=height, font=font, segments=segments)) * abs(depth)
+    return prisms.volume(outline(text, height=height, font=font, segments=segments), amount=depth)
+
+
+def area(text: str, *, height: float = 1.0, depth: float = 0.2, font: str = "sans", segments: int = 4) -> float:
+    """The area of a text, all round, m².
+
+    >>> round(area("I", depth=0), 6) == round(2 * volume("I", depth=1), 6)
+    True
+    """
+    return prisms.area(outline(text, height=height, font=font, segments=segments), amount=depth)
+
+
+def center_of_mass(
+    text: str,
+    *,
+    height: float = 1.0,
+    depth: float = 0.2,
+    align: Align = "center",
+    font: str = "sans",
+    segments: int = 4,
+) -> Floats:
+    """The centre of mass of a text, (3,), metres.
+
+    >>> (center_of_mass("I", height=2, depth=3) + 0).round(6).tolist()
+    [0.0, 1.0, 1.5]
+    """
+    lines = outline(text, height=height, align=align, font=font, segments=segments)
+    return prisms.center_of_mass(lines, amount=depth)
+
+
+def inertia(text: str, *, height: float = 1.0, depth: float = 0.2, font: str = "sans", segments: int = 4) -> Floats:
+    """The inertia of a text about its centre of mass for a density of 1: (3, 3), m⁵.
+
+    >>> bool(inertia("H")[2, 2] > inertia("I")[2, 2])
+    True
+    """
+    return prisms.inertia(outline(text, height=height, font=font, segments=segments), amount=depth)
 
 
 @functools.lru_cache(maxsize=128)

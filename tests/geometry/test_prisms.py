@@ -47,6 +47,15 @@ def test_a_prism_of_no_height_is_flat():
     assert meshes.area(flat) == pytest.approx(2 * outlines.area(LETTER))
 
 
+@given(st.floats(-3, 3).filter(lambda x: abs(x) > 0.1), st.floats(-50, 50))
+def test_inertia_is_that_of_the_mesh(amount, shift):
+    """Of outlines with holes, crooked ones, and wherever they lie; a prism's mesh is the prism itself."""
+    for shape in ([outlines.star(2, 1) + shift, outlines.circle(0.5) + shift], [(0, 0), (3, 0), (1, 2)]):
+        exact = prisms.inertia(shape, amount=amount)
+        assert np.allclose(exact, meshes.inertia(prisms.mesh(shape, amount=amount)), atol=2e-3 * np.abs(exact).max())
+    assert (prisms.inertia([]) == 0).all()
+
+
 def test_walls_meet_at_edges():
     """Each side of a box has its own normals; of a smooth circle the normals are radial."""
     box = prisms.mesh(outlines.rectangle(), amount=1)

@@ -114,6 +114,31 @@ def test_the_topology_holds_while_the_profile_moves():
         assert revolutions.weld(one, **options).tobytes() != revolutions.weld(two, **options).tobytes()
 
 
+@given(st.floats(0.5, 6.3), st.sampled_from([(0, 0, 1), (1, 2, 3), (0, -1, 0)]), st.floats(-3, 3))
+@settings(max_examples=25)
+def test_inertia_is_that_of_a_fine_mesh(angle, axis, shift):
+    """About the centre of mass, for whole and partial turns, any axis, and wherever the solid stands."""
+    profile = [(0, 0), (1, 0.2), (0.6, 1), (1.2, 1.5), (0, 2)]
+    options = {"axis": axis, "center": (shift, 1, -shift), "angle": angle}
+    fine = revolutions.mesh(profile, segments=200, **options)
+    exact = revolutions.inertia(profile, **options)
+    assert np.allclose(exact, meshes.inertia(fine), atol=2e-3 * np.abs(exact).max())
+    assert np.allclose(exact, exact.T)
+    assert np.linalg.eigvalsh(exact).min() > 0
+
+
+def test_inertia_of_a_ring_and_a_ball_is_known():
+    """A ball: 2/5 m r²; a torus: m (R² + 3/4 r²) about its axis, m (R² / 2 + 5/8 r²) across."""
+    turns = np.linspace(-math.pi / 2, math.pi / 2, 2001)
+    ball = revolutions.inertia(np.stack([np.cos(turns), np.sin(turns)], axis=1))
+    assert np.allclose(ball, 0.4 * 4 / 3 * math.pi * np.eye(3), rtol=1e-5, atol=1e-9)
+    torus = revolutions.inertia(outlines.circle(0.5, segments=4000) + (2, 7), closed=True)
+    mass = 2 * math.pi**2 * 2 * 0.25
+    across = mass * (4 / 2 + 5 / 8 * 0.25)
+    assert np.allclose(torus.diagonal(), [across, across, mass * (4 + 0.75 * 0.25)], rtol=1e-5)
+    assert (revolutions.inertia([(1, 0), (1, 0)]) == 0).all()
+
+
 def test_sides_meet_at_edges_unless_they_are_smooth():
     """Of a cylinder's mantle and lids each has its own normals; of a smooth profile the points are shared."""
     creased = revolutions.mesh([(1, 0), (1, 2)], segments=24)

@@ -69,6 +69,17 @@ def test_size_scales_and_segments_refine():
     assert counts[0] < counts[1] < counts[2]
 
 
+def test_measures_are_those_of_the_mesh():
+    """Volume, area, centre of mass and inertia of letters, holes and all."""
+    options = {"height": 2.0, "depth": 0.5, "segments": 3}
+    mesh = texts.mesh("Bo8", align="left", **options)
+    assert texts.volume("Bo8", **options) == pytest.approx(meshes.volume(mesh), rel=1e-4)
+    assert texts.area("Bo8", **options) == pytest.approx(meshes.area(mesh), rel=1e-4)
+    assert np.allclose(texts.center_of_mass("Bo8", align="left", **options), meshes.center_of_mass(mesh), atol=1e-4)
+    assert np.allclose(texts.inertia("Bo8", **options), meshes.inertia(mesh), rtol=1e-3, atol=1e-4)
+    assert texts.volume("") == texts.area("") == 0
+
+
 def test_empty_texts_are_empty():
     """As are blanks and line breaks."""
     for text in ("", "   ", "\n\n", "\t"):

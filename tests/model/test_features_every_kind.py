@@ -150,9 +150,8 @@ def test_every_kind_has_a_surface_with_sound_parts(name: str) -> None:
     assert np.allclose(length[seen], 1, atol=1e-5)
     assert (length[~seen] <= 1 + 1e-5).all()  # at the tip of a cone, say, triangles have no area and points no normal
     uv, weld = obj.uv.at(0), obj.weld.at(0)
-    if uv is not None:
-        assert uv.shape == (len(points), 2)
-        assert 0 <= uv.min() <= uv.max() <= 1
+    assert uv.shape == (len(points), 2)
+    assert 0 <= uv.min() <= uv.max() <= 1
     if weld is not None:
         assert np.array_equal(points[weld], points)
         assert (weld <= np.arange(len(points))).all()
@@ -439,3 +438,40 @@ def test_flattened_to_nothing_it_is_met_as_its_mesh() -> None:
     assert tiny.contains([(9e-8, 0, 0), (1.1e-7, 0, 0)]).at(0).tolist() == [True, False]
     ball.scale(0)
     assert np.isinf(ball.intersect((0, 0, 5), (0, 0, -1)).at(0).distance).all()
+
+
+@pytest.mark.parametrize("name", [name for name in CLOSED if name not in ("blob", "hull", "duct", "teapot")])
+def test_closed_forms_are_those_of_the_mesh(name: str) -> None:
+    """F031: exact mass properties: volume, area, centre of mass and inertia are those of a fine mesh; also moved."""
+    obj = fine(CLOSED[name]())
+    obj.scale((1, 1.5, 0.8))
+    obj.rotate(40, axis=(1, 2, 3))
+    obj.translate((1, -2, 3))
+    mesh = meshed(obj)
+    for measure in ("volume", "area", "center_of_mass", "inertia"):
+        exact, rough = np.asarray(getattr(obj, measure).at(0)), np.asarray(getattr(mesh, measure).at(0))
+        scale = np.abs(exact).max()
+        assert np.allclose(exact, rough, rtol=0, atol=0.02 * scale), measure
+    assert np.allclose(obj.inertia.at(0), obj.inertia.at(0).T)
+
+
+def fine(obj: r4.Object) -> r4.Object:
+    """The same with so many segments that its mesh is near to its closed forms."""
+    for count in ("segments", "rings", "sides", "stacks"):
+        if isinstance(type(obj).settings.get(count), r4.Integer) and not isinstance(obj, r4.Lettering | r4.Prism):
+            setattr(obj, count, 64)
+    return obj
+
+
+@pytest.mark.parametrize("shape", [r4.Rectangle((2, 1)), r4.Ngon(1), r4.Star()], ids=["rectangle", "ngon", "star"])
+def test_the_sides_of_shapes_have_segments(shape: r4.Object) -> None:
+    """F031: shapes have segments, too: the same outline of more points, that a bend has something to act on."""
+    few = shape.outline.at(0)
+    solid = shape.extend()
+    shape.parameters["segments"] = r4.keys({0: 1, 2: 5}, interpolation="step")
+    many = shape.outline.at(2)
+    assert np.array_equal(many[::5], few)
+    assert len(shape.form.at(2).part("lines").at(2)) == 5 * len(few) + 1
+    solid.apply(r4.Extrude(1.0))
+    assert solid.volume.at(2) == pytest.approx(solid.volume.at(0))
+    assert len(solid.topology.at(2)) > len(solid.topology.at(0))

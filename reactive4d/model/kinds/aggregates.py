@@ -7,7 +7,7 @@ import numpy as np
 
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
-from reactive4d.geometry import solids
+from reactive4d.geometry import atlases, solids
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.solids import Solid
 from reactive4d.model.forms import Base
@@ -298,7 +298,7 @@ class Hull(Object):
 
     table = Table(
         solid=lambda obj: solids.convex_hull(joined([member.mesh.now() for _, member in members_of(obj, Hull)]).points),
-        surface=lambda obj: solids.mesh(obj.solid_of_kind().now()),
+        surface=lambda obj: atlases.two_sides(solids.mesh(obj.solid_of_kind().now())),
     )
 
     def __init__(self, members: Any = None, **settings: Any) -> None:

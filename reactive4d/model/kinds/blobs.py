@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d.geometry import blobs
+from reactive4d.geometry import atlases, blobs
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.objects import Object
 from reactive4d.model.settings import Float, Integer, Places, Vector
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 def _surface(centers: Array, radii: Array, strengths: Any, threshold: float, resolution: int) -> Mesh:
     strong = 1.0 if strengths is None else _each(strengths, len(centers))
     mesh = blobs.mesh(centers, _each(radii, len(centers)), strengths=strong, threshold=threshold, resolution=resolution)
-    return Mesh(mesh.points, mesh.faces)
+    return atlases.two_sides(Mesh(mesh.points, mesh.faces))
 
 
 def _each(values: Array, count: int) -> Array:

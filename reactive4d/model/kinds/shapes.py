@@ -23,6 +23,13 @@ def flat(outline: Array) -> Array:
     return freeze(points)
 
 
+def divided(outline: Array, segments: int) -> Array:
+    """A ring whose sides are divided into so many pieces of equal length."""
+    share = np.arange(segments) / segments
+    after = np.roll(outline, -1, axis=0)
+    return (outline[:, None] + share[:, None] * (after - outline)[:, None]).reshape(-1, outline.shape[1])
+
+
 def ring(points: Array) -> Array:
     """Through all points and back to the first."""
     return freeze(np.append(np.arange(len(points), dtype=np.int32), np.int32(0)))
@@ -129,8 +136,12 @@ class Rectangle(Object):
     """
 
     size = Vector((1.0, 1.0), size=2, spreads=True, low=0.0, unit="m", doc="along x and y")
+    segments = Integer(1, low=1, doc="how many pieces on each side")
 
-    table = Table(points=lambda size: flat(outlines.rectangle(size)), lines=lambda: ring(np.empty(4)))
+    table = Table(
+        points=lambda size, segments: flat(divided(outlines.rectangle(size), segments)),
+        lines=lambda segments: ring(np.empty(int(4 * segments))),
+    )
 
     def __init__(self, size: Any = None, *, color: Any = None, **settings: Any) -> None:
         super().__init__(size=size, color=color, **settings)
@@ -146,10 +157,11 @@ class Ngon(Object):
 
     radius = Float(0.5, low=0.0, unit="m", doc="from the centre to a corner")
     sides = Integer(6, low=3, doc="how many")
+    segments = Integer(1, low=1, doc="how many pieces on each side")
 
     table = Table(
-        points=lambda radius, sides: flat(outlines.polygon(radius, sides=sides)),
-        lines=lambda sides: ring(np.empty(int(sides))),
+        points=lambda radius, sides, segments: flat(divided(outlines.polygon(radius, sides=sides), segments)),
+        lines=lambda sides, segments: ring(np.empty(int(sides * segments))),
     )
 
     def __init__(self, radius: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -167,10 +179,11 @@ class Star(Object):
     radius = Float(0.5, low=0.0, unit="m", doc="from the centre to a tip")
     inner = Float(0.2, low=0.0, unit="m", doc="from the centre to a corner between tips")
     tips = Integer(5, low=2, doc="how many")
+    segments = Integer(1, low=1, doc="how many pieces on each side")
 
     table = Table(
-        points=lambda radius, inner, tips: flat(outlines.star(radius, inner, tips=tips)),
-        lines=lambda tips: ring(np.empty(int(2 * tips))),
+        points=lambda radius, inner, tips, segments: flat(divided(outlines.star(radius, inner, tips=tips), segments)),
+        lines=lambda tips, segments: ring(np.empty(int(2 * tips * segments))),
     )
 
     def __init__(self, radius: Any = None, *, color: Any = None, **settings: Any) -> None:

@@ -69,6 +69,7 @@ class Revolution(Object):
         volume=_turned("volume"),
         area=_turned("area"),
         center_of_mass=_turned("center_of_mass"),
+        inertia=_turned("inertia"),
     )
 
     def __init__(self, profile: Any = None, *, color: Any = None, **settings: Any) -> None:
@@ -101,6 +102,7 @@ class Prism(Object):
         volume=lambda outline_of, height: prisms.volume(outline_of[:, :2], amount=height),
         area=lambda outline_of, height: prisms.area(outline_of[:, :2], amount=height),
         center_of_mass=lambda outline_of, height: prisms.center_of_mass(outline_of[:, :2], amount=height),
+        inertia=lambda outline_of, height: prisms.inertia(outline_of[:, :2], amount=height),
     )
 
     def __init__(self, outline: Any = None, height: Any = None, *, color: Any = None, **settings: Any) -> None:

@@ -10,6 +10,16 @@ from reactive4d.model.tables import Table
 __all__ = ["Lettering"]
 
 
+def _of_text(name: str) -> Any:
+    function = getattr(texts, name)
+
+    def method(text: str, height: float, depth: float, font: str, segments: int) -> Any:
+        return function(text, height=height, depth=depth, font=font, segments=segments)
+
+    method.__name__ = f"texts.{name}"
+    return method
+
+
 class Lettering(Object):
     """A text whose letters are solid, standing in the xy plane and thick along z.
 
@@ -29,9 +39,12 @@ class Lettering(Object):
         surface=lambda text, height, depth, align, font, segments: texts.mesh(
             text, height=height, depth=depth, align=align, font=font, segments=segments
         ),
-        volume=lambda text, height, depth, font, segments: texts.volume(
-            text, height=height, depth=depth, font=font, segments=segments
+        volume=_of_text("volume"),
+        area=_of_text("area"),
+        center_of_mass=lambda text, height, depth, align, font, segments: texts.center_of_mass(
+            text, height=height, depth=depth, align=align, font=font, segments=segments
         ),
+        inertia=_of_text("inertia"),
     )
 
     def __init__(self, text: Any = None, *, color: Any = None, **settings: Any) -> None:
