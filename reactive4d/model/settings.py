@@ -250,7 +250,7 @@ class Flag(Typed[bool, bool | float | Signal[Any]]):
 
 
 class Vector(Typed[Array, Numbers | None]):
-    """Several numbers: three, unless told otherwise.
+    """Several numbers: three, unless told otherwise. In a net of points, (M, N, 3), objects stand for their places.
 
     Args:
         default: so many numbers.
@@ -291,7 +291,30 @@ class Vector(Typed[Array, Numbers | None]):
             if len(self.shape) != 1 or len(value) != self.shape[0]:  # pyright: ignore[reportUnknownArgumentType]
                 raise self.refused(self._expected(), value)
             return vec(*value)  # pyright: ignore[reportUnknownArgumentType]
+        if len(self.shape) > 2 and isinstance(value, tuple | list):
+            rows = _leaves(value, len(self.shape) - 1)
+            if any(_is_alive(row) for row in rows):
+                return self._net(value, rows)
         return super().admit(value)
+
+    def _net(self, value: Any, rows: list[Any]) -> Signal[Any]:
+        """A net some of whose points are objects or signals, as one signal."""
+        one = Vector(size=3)
+        one.name, one.owner = self.name, self.owner
+        counts: list[int] = []
+        inner: list[Any] = [value]
+        for _ in self.shape[:-1]:
+            below: Any = inner[0] if inner else ()
+            inner = list(below) if isinstance(below, tuple | list) else []  # pyright: ignore[reportUnknownArgumentType]
+            counts.append(len(inner))
+        if math.prod(counts) != len(rows):
+            raise self.refused(f"{self._expected()}, rows of equal length", value)
+        fixed: list[Any] = [x if is_signal(x) else x.position if _is_alive(x) else one.check(x) for x in rows]
+
+        def net(*points: Any) -> Array:
+            return freeze(np.array(points, dtype=np.float64).reshape(*counts, 3))
+
+        return lift(net)(*fixed)
 
     def check(self, value: Any) -> Any:
         """An array of the declared shape, frozen."""
@@ -577,6 +600,13 @@ class Places(Vector):
     def _count(self, n: int) -> None:
         if not self.fewest <= n <= self.most:
             raise ShapeError(f"{self.path}: expected {self.fewest} to {self.most} points, got {n}")
+
+
+def _leaves(value: Any, depth: int) -> list[Any]:
+    """What lists hold that are nested so deep; what ends earlier is taken as it is."""
+    if depth == 0 or not isinstance(value, tuple | list):
+        return [value]
+    return [leaf for item in value for leaf in _leaves(item, depth - 1)]  # pyright: ignore[reportUnknownVariableType]
 
 
 def _is_alive(value: Any) -> bool:

@@ -412,6 +412,22 @@ def test_a_patch_moves_with_its_control_points(kind: str) -> None:
     assert patch.area.at(0) == pytest.approx(24 if kind != "bezier" else 18, rel=1e-4)
 
 
+def test_control_points_of_a_patch_are_objects() -> None:
+    """F025, F035: points are control points of patches, too: where one moves the patch follows, its topology holds."""
+    corner, leader = r4.Point((0, 0, 0)), r4.Sphere()
+    corner.translate(r4.vec(0, 0, t))
+    leader.translate(r4.vec(1, 1, 2 * t))
+    patch = r4.Patch([[corner, (1, 0, 0)], [(0, 1, 0), leader]], interpolation="linear", segments=(1, 1))
+    assert sorted(patch.points.at(3)[:, 2].tolist()) == [0, 0, 3, 6]
+    assert patch.topology.valid(3) == r4.FOREVER
+    with pytest.raises(r4.ShapeError, match=r"Patch\.net"):
+        r4.Patch([[corner, (1, 0, 0)], [(0, 1, 0)]])
+    with pytest.raises(r4.ShapeError, match=r"Patch\.net"):
+        r4.Patch([corner, (1, 0, 0)])
+    with pytest.raises(r4.ShapeError, match=r"Patch\.net"):
+        r4.Patch([[corner, (1, 0)], [(0, 1, 0), leader]])
+
+
 polygons = st.lists(st.floats(0.3, 2.0), min_size=3, max_size=9)
 
 
