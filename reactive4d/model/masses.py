@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.geometry import meshes, solids
-from reactive4d.model.forms import Base
+from reactive4d.model.forms import Base, Form, Stage
+from reactive4d.model.lanes import acting
 from reactive4d.model.palettes import groups_of
+from reactive4d.model.stacks import entries
 from reactive4d.signals.facade import Signal
 
 if TYPE_CHECKING:
@@ -73,6 +75,26 @@ def solid(obj: "Object") -> Any:
     method = closed_form(obj, "solid")
     if method is not None:
         return method.now()
-    faces = obj.form.now().need("faces").now()
+    form = obj.form.now()
     groups = groups_of(obj)
-    return solids.solid(obj.points.now(), faces, obj.weld.now(), uv=obj.uv.now(), groups=groups)
+    if groups is None and not acting(entries(obj, "mapping")):
+        return imported(form).now()
+    return solids.solid(
+        form.need("points").now(), form.need("faces").now(), obj.weld.now(), uv=obj.uv.now(), groups=groups
+    )
+
+
+def imported(form: Form) -> Signal[Any]:
+    """The solid of a form: extensions that share the form share it, too."""
+    known = form.parts.get("imported")
+    if known is not None:
+        return known
+    inputs = {name: form.part(name) for name in ("weld", "uv")}
+    given = {name: part for name, part in inputs.items() if part is not None}
+
+    def solid(points: Any, faces: Any, *others: Any) -> Any:
+        return solids.solid(points, faces, **dict(zip(given, others, strict=True)))
+
+    made = Stage(form, "imported", solid, form.need("points"), form.need("faces"), *given.values())
+    form.parts["imported"] = made
+    return made

@@ -138,9 +138,39 @@ def test_a_moving_operand_is_imported_once() -> None:
     with r4.log() as events:
         for at in (0.0, 0.2, 0.4):
             rest.volume.at(at)
-    counts = {name: evaluated(events).count(name) for name in ("box.solid", "sphere.solid", "box.matrix")}
-    assert counts == {"box.solid": 1, "sphere.solid": 1, "box.matrix": 1}
+    counts = {name: evaluated(events).count(name) for name in ("box.imported", "sphere.imported", "box.matrix")}
+    assert counts == {"box.imported": 1, "sphere.imported": 1, "box.matrix": 1}
     assert r4.stats([rest.volume])["evaluations"] == 3
+
+
+def test_what_shares_a_surface_is_imported_once() -> None:
+    """F032, F009: a plate with sixteen holes whose drills extend one drill: one import, also of what was deformed."""
+    plate, drill = r4.Box((8, 8, 1)), r4.Cylinder(0.3, 2, segments=12)
+    drill.name = "drill"
+    drill.apply(r4.XForm(angle=15))
+    drills = [drill.extend() for _ in range(16)]
+    for i, one in enumerate(drills):
+        one.translate((2 * (i % 4) - 3, 2 * (i // 4) - 3, 0))
+    rest = plate - r4.Group(drills)
+    with r4.log() as events:
+        hole = 12 / 2 * math.sin(2 * PI / 12) * 0.3**2
+        assert rest.volume.at(0) == pytest.approx(64 - 16 * hole, rel=1e-3)
+    assert [name for name in evaluated(events) if "imported" in name] == ["box.imported", "drill.xform.imported"]
+
+
+def test_a_group_is_an_operand_like_a_union() -> None:
+    """F032, F033: members that overlap are one solid for booleans; that one of them moves imports none of them anew."""
+    a, b = r4.Box((2, 2, 2)), r4.Box((2, 2, 2))
+    b.translate(r4.vec(t, 0, 0))
+    group = r4.Group([a, b])
+    whole = group | r4.Box(0.1)
+    with r4.log() as events:
+        volumes = [whole.volume.at(at) for at in (0, 1, 2, 3)]
+    assert volumes == pytest.approx([8, 12, 16, 16], rel=1e-5)
+    assert sum("imported" in name for name in evaluated(events)) == 3
+    assert (group & r4.Box((9, 9, 1))).volume.at(1) == pytest.approx(6, rel=1e-5)
+    group.translate((0, 0, 5))
+    assert (group & r4.Box((9, 9, 1))).volume.at(1) == 0
 
 
 def test_faces_keep_their_operands_paint() -> None:
@@ -589,7 +619,7 @@ def test_one_point_moves_and_all_that_is_made_of_it_follows() -> None:
         *("p2.(translate)", "p2.matrix", "p2.position"),
         *("part.solid", "part.volume", "part.volume"),
         *("path.controls", "path.outline", "path.points", "path.points"),
-        *("vase.faces", "vase.points", "vase.points", "vase.profile", "vase.solid", "vase.surface"),
+        *("vase.faces", "vase.imported", "vase.points", "vase.profile", "vase.solid", "vase.surface"),
         *("vase.uv", "vase.weld"),
     ]
     # Moved back, all of it is a hit.

@@ -175,6 +175,9 @@ class Group(Object):
 
     table = Table(
         surface=lambda obj: _together(obj),
+        solid=lambda obj: solids.union(
+            [solids.moved(member.solid.now(), member.matrix.now()) for member in _solid_members(obj)]
+        ),
         colors=lambda obj: _painted(obj),
         outline=lambda obj: _one_after_the_other(obj),
     )
