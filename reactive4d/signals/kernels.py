@@ -227,6 +227,8 @@ def stacked(answers: list[Any]) -> Any:
 def shown(x: Any) -> str:
     """A constant in a name."""
     if isinstance(x, ARRAY):
+        if x.ndim == 0:
+            return repr(x.item())
         return str(tuple(x.tolist())) if x.size <= 4 else f"array{x.shape}"
     if type(x) is float:
         return f"{x:g}"

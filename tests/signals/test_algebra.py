@@ -189,6 +189,12 @@ def test_names_tell_what_is_calculated() -> None:
     assert r4.where(x < 3, y, 0).name == "where((x < 3), y, 0)"
 
 
+def test_a_constant_without_dimensions_has_a_name_as_well() -> None:
+    """NumPy's scalars come as arrays of no dimension."""
+    x = r4.Variable(1.0, name="x")
+    assert (x * np.array(0.5)).name == "x * 0.5"
+
+
 def test_names_of_large_signals_stay_short() -> None:
     """However deep, wide or long what they are made of is."""
     deep: Any = t
