@@ -15,7 +15,6 @@ from reactive4d.model.objects import Object
 from reactive4d.model.prototypes import Prototype
 from reactive4d.model.registries import spoken_name
 from reactive4d.model.scenes import Scene
-from reactive4d.scefo.collecting import Collection
 from reactive4d.scefo.constructors import MOST_POINTS
 from reactive4d.scefo.operators import is_live
 from reactive4d.scefo.reading import NAMELESS
@@ -30,14 +29,13 @@ _GIVEN_TO_ALL: Final = frozenset({"affine", "keys", "signal", "variable"})
 
 
 class Naming:
-    """The names of what a scene is made of, each of them used once.
+    """The names of what a scene is made of, each of them used once; given when they are first wanted.
 
     Args:
         scene: its own names come first.
-        collection: what it is made of.
     """
 
-    def __init__(self, scene: Scene, collection: Collection) -> None:
+    def __init__(self, scene: Scene) -> None:
         self.taken: set[str] = set(scene)
         self.names: dict[int, str] = {}
         self.signals: dict[int, str] = {}
@@ -49,14 +47,6 @@ class Naming:
             self.taken.add(name)
             if is_live(value):
                 self.signals.setdefault(id(value), name)
-        for change in collection.changes:
-            if change.is_named and change.name not in self.taken and not change.name.startswith(NAMELESS):
-                self.names[id(change)] = change.name
-                self.taken.add(change.name)
-        for obj in collection.objects:
-            if id(obj) not in self.names:
-                is_given = obj.is_named and not obj.name.startswith(NAMELESS)
-                self.names[id(obj)] = self.free(obj.name if is_given else NAMELESS + obj.name.lstrip(NAMELESS))
 
     def free(self, wanted: str) -> str:
         """A name like this one that is not taken; it is by now."""
@@ -70,12 +60,19 @@ class Naming:
         """The name of a change that needs one."""
         found = self.names.get(id(change))
         if found is None:
-            found = self.names[id(change)] = self.free(NAMELESS + type(change).script.rpartition(".")[2])
+            is_given = change.is_named and change.name not in self.taken and not change.name.startswith(NAMELESS)
+            wanted = change.name if is_given else NAMELESS + type(change).script.rpartition(".")[2]
+            found = self.names[id(change)] = self.free(wanted)
         return found
 
     def of_object(self, obj: Object) -> str:
         """The name of an object."""
-        return self.names[id(obj)]
+        found = self.names.get(id(obj))
+        if found is None:
+            is_given = obj.is_named and not obj.name.startswith(NAMELESS)
+            wanted = obj.name if is_given else NAMELESS + obj.name.lstrip(NAMELESS).rpartition(".")[2]
+            found = self.names[id(obj)] = self.free(wanted)
+        return found
 
     def of_signal(self, signal: Any) -> str:
         """A name for a signal that gets a statement of its own."""

@@ -84,11 +84,12 @@ class _Writer:
         self.folder = None if folder is None else folder.resolve()
         self.memory: Memory = scene.remembered if isinstance(scene.remembered, Memory) else Memory()
         self.collection = Collection(scene)
-        self.naming = Naming(scene, self.collection)
+        self.naming = Naming(scene)
         self.unparsing = Unparsing(self.naming.name_of, self.naming.of_signal, None)
         self.phrasing = Phrasing(self.unparsing, self.naming.free)
         self.unparsing.count(self.collection.roots)
-        for value in scene.signals.values():
+        self.named = {**scene.signals, **self._remembered()}
+        for value in self.named.values():
             if is_live(value):
                 # What has a name is always defined.
                 self.unparsing.counts[id(value)] = self.unparsing.counts.get(id(value), 0) + 2
@@ -96,7 +97,7 @@ class _Writer:
         self.contents = {id(obj): self._contents(obj) for obj in self.collection.objects}
         self.late = self._late()
         self.runs = _runs(self.collection.objects, self.memory)
-        self._label()
+        self.labelled = self._labelled()
         self.statements: list[Statement] = []
         self.heads = dict(self.memory.heads)
         self.done: set[int] = set()  # ids of objects and changes
@@ -112,6 +113,18 @@ class _Writer:
         self.order: list[tuple[str, Object]] = [*scene.items()]
         self.ranks = {id(obj): i for i, (_, obj) in reversed([*enumerate(self.order)])}
         self.shown = 0
+
+    def _remembered(self) -> dict[str, Any]:
+        """Signals that have a name in the script that was read, though not in the scene, and are still used."""
+        counts, naming = self.unparsing.counts, self.naming
+        found: dict[str, Any] = {}
+        for name, (_, _, value, _) in self.memory.definitions.items():
+            is_used = is_live(value) and counts.get(id(value), 0) > 0
+            if is_used and name not in naming.taken and id(value) not in naming.signals:
+                naming.taken.add(name)
+                naming.signals[id(value)] = name
+                found[name] = value
+        return found
 
     # -- what can be said when -------------------------------------------------------------------------------------
 
@@ -168,15 +181,17 @@ class _Writer:
             left = [*x.contents, gating_of(x)]
         return [y for content in left for y in self._mentioned(content)]
 
-    def _label(self) -> None:
-        """Give names to the changes that are said more than once, or mentioned."""
+    def _labelled(self) -> set[int]:
+        """The ids of the changes that need names: they have one, are said more than once, or are mentioned."""
         times: dict[int, int] = {}
         for run in self.runs:
             times[id(run.change)] = times.get(id(run.change), 0) + 1
         mentioned = {id(x) for root in self.collection.roots for x in self._mentioned(root)}
-        for change in self.collection.changes:
-            if times.get(id(change), 0) != 1 or id(change) in mentioned:
-                self.naming.label(change)
+        return {
+            id(change)
+            for change in self.collection.changes
+            if change.is_named or times.get(id(change), 0) != 1 or id(change) in mentioned
+        }
 
     # -- the whole -------------------------------------------------------------------------------------------------
 
@@ -189,7 +204,7 @@ class _Writer:
                 if name in self.contents[id(obj)]:
                     events.append((worded.place, 1, (obj, name)))
         events += [(run.entries[0].place, 2, run) for run in self.runs]
-        for name in self.scene.signals:
+        for name in self.named:
             if name in self.memory.definitions:
                 events.append((self.memory.definitions[name].place, 3, name))
         for i, (name, _) in enumerate(self.order):
@@ -204,9 +219,8 @@ class _Writer:
         return Script(tuple(self.statements), self.memory.after)
 
     def _event(self, event: Any) -> None:
+        """What has its place in the order of the history."""
         if isinstance(event, Object):
-            for _, obj in self.order[: self.ranks.get(id(event), 0)]:
-                self._need([obj])
             self._need([event])
         elif isinstance(event, _Run):
             self._change(event)
@@ -240,7 +254,7 @@ class _Writer:
 
     def _need(self, things: Iterable[Any]) -> None:
         """Tell objects and changes that were not told yet, after what they need; then what waited for them."""
-        todo = [x for x in things if id(x) not in self.done]
+        todo = self._roots([x for x in things if id(x) not in self.done])[::-1]
         under_way: set[int] = set()
         while todo:
             x = todo[-1]
@@ -262,6 +276,28 @@ class _Writer:
                 self._assign(*self.waiting.pop(0))
             self.is_catching_up = False
 
+    def _roots(self, things: list[Any]) -> list[Any]:
+        """These things, after the objects that the scene shows before any of those that they need."""
+        seen: set[int] = set()
+        rank = self.shown
+        todo = [*things]
+        while todo:
+            x = todo.pop()
+            if id(x) in seen or id(x) in self.done:
+                continue
+            seen.add(id(x))
+            todo += self._needs(x, self.late)
+            last = -1 if self._is_hidden(x) else self.ranks.get(id(x), -1)
+            if last > rank:
+                todo += [obj for _, obj in self.order[rank:last]]
+                rank = last
+        return [*[obj for _, obj in self.order[self.shown : rank]], *things]
+
+    def _is_hidden(self, x: Any) -> bool:
+        """Whether an object was made hidden, and shown by a statement of its own."""
+        told = self.memory.objects.get(x) if isinstance(x, Object) else None
+        return told is not None and told.tree.is_hidden and self.naming.of_object(x) in self.memory.shows
+
     # -- objects ---------------------------------------------------------------------------------------------------
 
     def _make(self, obj: Object) -> None:
@@ -273,7 +309,7 @@ class _Writer:
         contents = {n: content for n, content in self.contents[id(obj)].items() if n not in late}
         prototype = None if MADE_OF in late else obj.prototype_content
         is_turn = self.shown < len(self.order) and self.order[self.shown] == (name, obj)
-        is_hidden = not is_turn or (name in self.memory.shows and told is not None and told.tree.is_hidden)
+        is_hidden = not is_turn or self._is_hidden(obj)
         file: Any = contents.get(SOURCE)
         is_read = type(obj) is Model and prototype is None and isinstance(file, str) and file != ""
         if is_read:
@@ -393,7 +429,7 @@ class _Writer:
             return Attribute(None if name == first else Name(name), value)
 
         attributes = self.phrasing.attributes(contents, phrases, said)
-        label = self.naming.names.get(id(change))
+        label = self.naming.label(change) if id(change) in self.labelled else None
         if change.is_named and change.name != label:
             attributes.append(Attribute(Name("name"), Text(change.name)))
         self._take_definitions()
@@ -407,7 +443,7 @@ class _Writer:
         """A signal or a value that has a name in the scene."""
         if name in self.defined:
             return
-        value = self.scene.signals[name]
+        value = self.named[name]
         self._need(self._mentioned(value))
         expression = self.phrasing.value(value, None, name)
         self._take_definitions()

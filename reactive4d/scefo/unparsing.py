@@ -13,7 +13,7 @@ import numpy as np
 
 from reactive4d.arrays import ARRAY
 from reactive4d.engine import Affine
-from reactive4d.errors import Reactive4dError, ScriptError, hint
+from reactive4d.errors import Reactive4dError, ScriptError, ShapeError, hint
 from reactive4d.model.channels import Question
 from reactive4d.scefo.functions import LIST, NAMED
 from reactive4d.scefo.operators import MOST_BITS, WRITTEN_BETWEEN, is_live
@@ -379,7 +379,7 @@ class Unparsing:
         known = [(t, key.value) for t, key in zip(curve.times, curve.keys, strict=True) if not is_live(key.value)]
         inner = curve.space.inner if isinstance(curve.space, Mixtures) else curve.space
         kind = None if inner is None else inner.kind
-        found = space_of([t for t, _ in known], [value for _, value in known]).kind if known else None
+        found = _kind_found(known)
         default = {"held": "step", "rotation": "slerp"}.get(curve.space.kind, "linear")
         is_said = curve.interpolation != default or curve.degree != 3
         return Curve(
@@ -435,6 +435,14 @@ _WRITERS: Final[Mapping[type, Callable[[Unparsing, Any], Expression]]] = Mapping
         Reflected: Unparsing.reflected,
     }
 )
+
+
+def _kind_found(known: list[tuple[float, Any]]) -> str | None:
+    """The kind of values that keys have where nobody tells it."""
+    try:
+        return space_of([t for t, _ in known], [value for _, value in known]).kind if known else None
+    except ShapeError:
+        return None
 
 
 def parts_of(x: Any) -> tuple[Any, ...]:
