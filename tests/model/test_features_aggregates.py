@@ -237,6 +237,29 @@ def test_empty_results_are_empty_meshes() -> None:
         nothing.bounds.at(0)
 
 
+def test_what_is_made_of_nothing_is_empty() -> None:
+    """F032, F033: a combination without a tree, a hull, a group without members: empty, and operands like others."""
+    box = r4.Box()
+    for make in (r4.Combination, r4.Group, r4.Hull, r4.Model, lambda: r4.Lettering(" ")):
+        obj = make()
+        assert (obj.volume.at(0), len(obj.mesh.at(0).faces)) == (0, 0)
+        assert (box | obj).volume.at(0) == pytest.approx(1)
+        assert (box - obj).volume.at(0) == pytest.approx(1)
+        assert colours(r4.Group([box, obj])) == colours(box | obj)
+    thing = r4.Sphere()
+    thing.apply(r4.Become("csg"))
+    assert thing.volume.at(0) == 0
+
+
+def test_a_hull_is_painted_as_one() -> None:
+    """F033, F079: the faces of a hull are its own, and keep its paint in booleans and groups."""
+    hull = r4.Hull([r4.Box(), r4.Box()], color="blue")
+    assert colours(r4.Box(3, color="red") - hull) == {RED, BLUE}
+    assert colours(r4.Group([r4.Box(3, color="red"), hull])) == {RED, BLUE}
+    hull.apply(r4.Twist(20))
+    assert colours(r4.Box(3, color="red") - hull) == {RED, BLUE}
+
+
 def test_a_combination_of_what_is_open_says_so() -> None:
     """F032: an operand that is no solid is refused by name when it is asked for."""
     with pytest.raises(r4.ShapeError, match="not a closed surface") as failed:

@@ -126,6 +126,13 @@ def joined(meshes: list[Mesh]) -> Mesh:
     return Mesh(points, faces, attributes)
 
 
+def _parts(obj: Object, kind: type[Object]) -> list[Object] | None:
+    """Of which objects its faces are, in the order of their sources; None where they are all its own."""
+    if issubclass(kind, Combination):
+        return list(leaves(_tree_of(obj)))
+    return _solid_members(obj) if issubclass(kind, Group) else None
+
+
 def paints_of(obj: Object) -> list[Any]:
     """The paint of each source of an object's solid, from left to right; only inside of an evaluation."""
     form = obj.form.now()
@@ -133,11 +140,9 @@ def paints_of(obj: Object) -> list[Any]:
     if sources is None:
         colors = colors_of(obj)
         return [obj.paint.now()] if colors is None else list(np.unique(colors, axis=0))
-    parts: list[Object] = []
-    if issubclass(form.base.kind, Combination):
-        parts = list(leaves(_tree_of(obj)))
-    elif issubclass(form.base.kind, Group):
-        parts = _solid_members(obj)
+    parts = _parts(obj, form.base.kind)
+    if parts is None:
+        return [obj.paint.now()] * _many(obj)
     paints = [paint for part in parts for paint in paints_of(part)]
     if isinstance(form, Base) and "solid" in form.kind.methods_by_name:
         return paints
@@ -151,8 +156,7 @@ def _painted(obj: Object) -> Any:
     sources = obj.surface_of_kind().now().attributes.get("source")
     if sources is None or not len(sources):
         return freeze(np.zeros((0, 4), np.float32))
-    parts = _solid_members(obj) if issubclass(obj.kind.now(), Group) else leaves(_tree_of(obj))
-    paints = [paint for part in parts for paint in paints_of(part)]
+    paints = [paint for part in _parts(obj, obj.kind.now()) or () for paint in paints_of(part)]
     return freeze(np.array(paints, np.float32)[sources])
 
 
@@ -226,7 +230,7 @@ def leaves(tree: Any) -> Iterator[Object]:
     """The objects of a tree, from left to right."""
     if isinstance(tree, Object):
         yield tree
-    else:
+    elif tree is not None:
         for part in tree[::2]:
             yield from leaves(part)
 
@@ -237,6 +241,8 @@ _COMBINE = {"|": solids.union, "&": solids.intersection, "-": solids.difference}
 def _combined(tree: Any) -> Solid:
     if isinstance(tree, Object):
         return solids.moved(tree.solid.now(), tree.matrix.now())
+    if tree is None:
+        return solids.union([])
     result = _combined(tree[0])
     i = 1
     while i < len(tree):
@@ -274,7 +280,7 @@ class Combination(Object):
     """
 
     script = "csg"
-    tree = Tree(doc="an object, or [a, '-', b]; trees nest")
+    tree = Tree(doc="an object, or [a, '-', b]; trees nest; nothing if it is not given")
 
     table = Table(
         solid=lambda obj: _solid(obj),
