@@ -510,10 +510,8 @@ def test_an_xform(offset: Any, angle: float, factor: float) -> None:
 
 def test_an_xform_on_the_selected_part() -> None:
     """F289, F291: on all or the selected part: only what was selected before it in the list moves."""
-    from reactive4d.model.selections import Select
-
     box = r4.Box(segments=(1, 1, 2))
-    box.apply(Select(lower=(-1, -1, 0.1), upper=(1, 1, 1)))
+    box.apply(r4.Select(lower=(-1, -1, 0.1), upper=(1, 1, 1)))
     lift = box.apply(r4.XForm(offset=(0, 0, 1)))
     assert near(box.bounds.at(0)[:, 2], (-0.5, 1.5), 1e-6)
     assert own(box) == pytest.approx(2)
