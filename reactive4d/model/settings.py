@@ -346,7 +346,7 @@ class Vector(Typed[Array, Numbers | None]):
             raise ShapeError(f"{self.path}: expected numbers of at least {self.low:g}, got {_listed(array)}")
         if self.high < math.inf and array.size and float(array.max()) > self.high:
             raise ShapeError(f"{self.path}: expected numbers of at most {self.high:g}, got {_listed(array)}")
-        if self.is_whole and not (array == np.floor(array)).all():
+        if self.is_whole and not ((array == np.floor(array)) & (np.abs(array) < 2.0**53)).all():
             raise ShapeError(f"{self.path}: expected whole numbers, got {_listed(array)}")
         if self.is_direction and not array.any():
             raise ShapeError(f"{self.path}: {_listed(array)} has no direction")
