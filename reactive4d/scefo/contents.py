@@ -19,7 +19,7 @@ from reactive4d.scefo.operators import is_live
 from reactive4d.scefo.refusals import refusing, wrong
 from reactive4d.scefo.scopes import Scope
 from reactive4d.scefo.strangers import kind_called
-from reactive4d.scefo.trees import Call, Curve, Expression, Items, Path, Place, Record, Text
+from reactive4d.scefo.trees import Call, Curve, Expression, Items, Place, Record, Text
 from reactive4d.scefo.writing import expression_text
 from reactive4d.signals.keys import Keys
 
@@ -94,7 +94,7 @@ def _refuse_length(tree: Expression, setting: Vector) -> None:
 
 def _refuse_keys(tree: Expression, setting: Setting[Any], content: Any) -> None:
     """Keys are checked when they are asked; what could never be meant is refused at once, at its key."""
-    if not isinstance(content, Keys) or content.curve.is_live or isinstance(tree, Path):
+    if not isinstance(content, Keys):
         return
     places: dict[float, Place] = {}
     if isinstance(tree, Curve):

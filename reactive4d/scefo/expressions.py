@@ -41,7 +41,7 @@ from reactive4d.signals.kernels import VECTOR
 from reactive4d.signals.keys import keys
 from reactive4d.signals.sources import time
 
-__all__ = ["Resolve", "evaluate"]
+__all__ = ["Resolve", "evaluate", "is_numeric"]
 
 Resolve: TypeAlias = Callable[[Path], Any]
 
@@ -117,7 +117,7 @@ class _Evaluation:
     def items(self, x: Items) -> Any:
         """A list: a tuple, or a signal of arrays where it is made of numbers and signals."""
         items = [self.of(item) for item in x.items]
-        if not any(map(is_live, items)) or not all(map(_is_numeric, items)):
+        if not any(map(is_live, items)) or not all(map(is_numeric, items)):
             return tuple(items)
         plain = [item for item in items if not is_live(item)]
         # Where there is a number all are numbers: a vector. Otherwise they may be rows.
@@ -214,10 +214,10 @@ def _index(index: int | Slice | str) -> Any:
     return Ellipsis if index == "..." else index
 
 
-def _is_numeric(x: Any) -> bool:
+def is_numeric(x: Any) -> bool:
     """Whether something could be a part of an array."""
     if type(x) is tuple:
-        return all(_is_numeric(part) for part in x)  # pyright: ignore[reportUnknownVariableType]
+        return all(is_numeric(part) for part in x)  # pyright: ignore[reportUnknownVariableType]
     return is_live(x) or type(x) in (int, float) or (type(x) is ARRAY and x.dtype.kind in "biuf")
 
 

@@ -88,9 +88,14 @@ def _array(kind: Any, values: Any) -> Any:
     """An array of a type of NumPy's."""
     if kind not in _TYPES:
         raise ShapeError(f"array: expected one of {', '.join(_TYPES)}, got {kind!r}")
-    return freeze(
-        kernels.numbers(values, "array").astype(kind) if kind[:5] == "float" else np.array(values, dtype=kind)
-    )
+    if kind[:5] != "float":
+        return freeze(np.array(values, dtype=kind))
+    wide = kernels.numbers(values, "array")
+    with np.errstate(over="ignore"):
+        made = wide.astype(kind)
+    if np.isinf(made).any() and not np.isinf(wide).any():
+        raise ShapeError(f"array: a number is too large for {kind}")
+    return freeze(made)
 
 
 LIST: Final = kernels.python(_list, "list")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -18,6 +19,7 @@ from reactive4d.signals.trees import is_a
 
 __all__ = ["MOST_BITS", "WRITTEN_BETWEEN", "apply", "apply_operator", "is_live"]
 
+MOST_NUMBERS: Final = 10_000_000  # of an array that is calculated while a script is read
 MOST_BITS: Final = 1000  # of a whole number; what is larger becomes a floating point number
 
 
@@ -98,6 +100,7 @@ def apply(name: str, *operands: Any) -> Any:
     made = [operand(x) for x in operands]
     if name != "equal":
         _refuse_words(name, made)
+    _refuse_size(name, made)
     bounded = _BOUNDED.get(name)
     if bounded is not None and not any(map(_is_floating, made)):
         return operated(bounded, made) if any(map(is_live, made)) else freeze(bounded.one(*made))
@@ -115,9 +118,24 @@ def apply_operator(operator: Operator, arguments: Sequence[Any], *, takes_words:
     made = [operand(x) for x in arguments]
     if not takes_words:
         _refuse_words(operator.name, made)
+    _refuse_size(operator.name, made)
     if any(map(is_live, made)):
         return operated(operator, made)
     return freeze(operator.one(*made))
+
+
+def _refuse_size(name: str, values: Sequence[Any]) -> None:
+    """Two short lists may make a table that fills any memory: a column and a row."""
+    shapes = [x.shape for x in values if type(x) is ARRAY]
+    if len(shapes) < 2 or max(map(len, shapes)) < 2:
+        return
+    if name in ("matmul", "dot"):
+        size = math.prod([math.prod(shape) for shape in shapes]) // max(1, shapes[0][-1]) ** 2
+    else:
+        turned = [shape[::-1] for shape in shapes]
+        size = math.prod([max(sizes) for sizes in zip_longest(*turned, fillvalue=1)])
+    if size > MOST_NUMBERS:
+        raise ShapeError(f"{name}: the result would have more than {MOST_NUMBERS} numbers")
 
 
 def _refuse_words(name: str, values: Sequence[Any]) -> None:

@@ -14,6 +14,7 @@ from reactive4d.model.objects import Anything
 from reactive4d.model.settings import AXES, Float, Held, Integer, Setting, Vector
 from reactive4d.scefo.classics import SHADES
 from reactive4d.scefo.contents import fits
+from reactive4d.scefo.expressions import is_numeric
 from reactive4d.scefo.memories import Phrase
 from reactive4d.scefo.operators import is_live
 from reactive4d.scefo.trees import (
@@ -91,8 +92,6 @@ class Phrasing:
     def _held(self, content: Any, *, may_live: bool = True) -> Expression:
         """Anything, to the letter: a list is a list, an array is an array."""
         if is_live(content):
-            if not may_live:
-                raise hint(NotWritableError("a list with signals in it, under a name that no kind knows"), "vec(…)")
             return self.unparsing.of(content)
         if isinstance(content, ARRAY):
             if content.size == 0 and content.ndim != 1:
@@ -100,7 +99,11 @@ class Phrasing:
             return Call("array", (Text(content.dtype.name), self.unparsing.literal(_tuples(content.tolist()))))
         made: Expression
         if isinstance(content, tuple):
-            made = Items(tuple([self._held(x, may_live=may_live) for x in content]))  # pyright: ignore
+            parts: Any = content  # pyright: ignore[reportUnknownVariableType]
+            if not may_live and any(map(is_live, parts)) and all(map(is_numeric, parts)):
+                error = NotWritableError("a list of numbers and signals, under a name that no kind knows")
+                raise hint(error, "it would be read as a signal of vectors: vec(…)")
+            made = Items(tuple([self._held(x, may_live=may_live) for x in parts]))
         elif isinstance(content, dict):
             entries: Any = content.items()  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
             if not all(isinstance(name, str) for name, _ in entries):

@@ -55,6 +55,8 @@ def answer(obj: r4.Object, name: str, t: float) -> Any:
     try:
         found = getattr(obj, name).at(t)
         return tuple(sorted(found.items())) if isinstance(found, Mapping) else found
+    except r4.CycleError as error:
+        return type(error)  # it names the path, which depends on who asked first
     except r4.Reactive4dError as error:
         return type(error), str(error)
 
