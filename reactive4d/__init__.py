@@ -40,6 +40,7 @@ from reactive4d.model.kinds.tori import Torus
 from reactive4d.model.kinds.views import Camera, Label, Light, Point
 from reactive4d.model.mappings import MapTexture
 from reactive4d.model.nodes import Lines, Node
+from reactive4d.model.notes import Sent, Store
 from reactive4d.model.objects import Object
 from reactive4d.model.outlines import Outline, Outlines
 from reactive4d.model.reshapings import Extrude, Lathe
@@ -145,6 +146,7 @@ __all__ = [
     "ScriptError",
     "Select",
     "Selecting",
+    "Sent",
     "Shade",
     "ShapeError",
     "Shear",
@@ -152,6 +154,7 @@ __all__ = [
     "Skew",
     "Sphere",
     "Star",
+    "Store",
     "Superquadric",
     "Table",
     "Taper",

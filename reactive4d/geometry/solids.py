@@ -52,6 +52,7 @@ class _Source(NamedTuple):
     has_normals: bool
     has_uv: bool
 
+
 _living: "WeakSet[Solid]" = WeakSet()
 
 

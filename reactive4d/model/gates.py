@@ -2,10 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-from reactive4d.engine.links import link
-from reactive4d.signals.facade import Signal
 from reactive4d.signals.keys import Keys
-from reactive4d.signals.settables import Settable, curve_difference
+from reactive4d.signals.settables import Assigned
 
 if TYPE_CHECKING:
     from reactive4d.model.changes import Change
@@ -15,7 +13,7 @@ __all__ = ["Gate", "open_spans"]
 INF = float("inf")
 
 
-class Gate(Settable[bool]):
+class Gate(Assigned[bool]):
     """Whether a change acts."""
 
     __slots__ = ("change", "follower")
@@ -34,37 +32,18 @@ class Gate(Settable[bool]):
     def name(self, value: str) -> None:
         pass
 
-    @property
-    def source(self) -> Any:
-        """What was assigned: the constant, the keys, the signal."""
-        return self.content
-
-    def refers(self, content: Any) -> bool:
-        """A signal is a reference."""
-        return isinstance(content, Signal)
-
-    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
-        """Keys over keys differ only where their curves do."""
-        spans = curve_difference(old, new)
-        return super().difference(old, new) if spans is None else spans
-
     def adopt(self) -> None:
-        """A constant makes it a source, a signal a formula."""
-        content = self.content
-        if isinstance(content, Signal):
-            self._be_formula(content)
-            link(self, self.inputs)
-        else:
-            self._be_source()
+        """The lists know over which spans the change acts, so they must hear when others are made."""
+        super().adopt()
+        content: Any = self.content
         if isinstance(content, Keys):
-            # The lists know over which spans the change acts, so they must hear when others are made.
             if self.follower is None:
                 self.follower = Follower(self.change)
             content.accompany(self.follower)  # pyright: ignore[reportArgumentType]
 
-    def function(self, *values: Any) -> Any:
-        """Whether what the signal says counts as true."""
-        return type(self.change).enabled.check(values[1])
+    def accepted(self, value: Any) -> Any:
+        """Whether it counts as true."""
+        return type(self.change).enabled.check(value)
 
 
 class Follower:

@@ -312,7 +312,7 @@ class Object:
         >>> import reactive4d as r4
         >>> sun, flower = r4.Sphere(), r4.Cone()
         >>> _ = sun.send(r4.LookAt(sun.position, forward="z"), to=flower)
-        >>> (receiver, change), = sun.notes.at(0.0)
+        >>> ((receiver, change),) = sun.notes.at(0.0)
         >>> receiver is flower and change is flower.changes[0]
         True
         """

@@ -3,10 +3,9 @@
 from typing import TYPE_CHECKING, Any
 
 from reactive4d.engine import Source
-from reactive4d.engine.links import link
 from reactive4d.errors import CycleError, ShapeError
 from reactive4d.signals.facade import Signal
-from reactive4d.signals.settables import Settable, curve_difference
+from reactive4d.signals.settables import Assigned
 
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
@@ -16,7 +15,7 @@ __all__ = ["Names", "Prototype", "refuse_circle"]
 INF = float("inf")
 
 
-class Prototype(Settable["Object | None"]):
+class Prototype(Assigned["Object | None"]):
     """The prototype of an object: an object, a signal of objects, or None."""
 
     __slots__ = ("object",)
@@ -34,32 +33,8 @@ class Prototype(Settable["Object | None"]):
     def name(self, value: str) -> None:
         pass
 
-    @property
-    def source(self) -> Any:
-        """What was assigned."""
-        return self.content
-
-    def refers(self, content: Any) -> bool:
-        """A signal is a reference."""
-        return isinstance(content, Signal)
-
-    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
-        """Keys over keys differ only where their curves do."""
-        spans = curve_difference(old, new)
-        return super().difference(old, new) if spans is None else spans
-
-    def adopt(self) -> None:
-        """An object makes it a source, a signal a formula."""
-        content = self.content
-        if isinstance(content, Signal):
-            self._be_formula(content)
-            link(self, self.inputs)
-        else:
-            self._be_source()
-
-    def function(self, *values: Any) -> Any:
-        """The object that the signal answers."""
-        value = values[1]
+    def accepted(self, value: Any) -> Any:
+        """An object, or None."""
         if value is not None and not hasattr(value, "changes"):
             raise ShapeError(f"{self.name}: expected an object, got {value!r}")
         return value

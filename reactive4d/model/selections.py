@@ -23,6 +23,7 @@ class Selecting(Change):
     >>> import reactive4d as r4
     >>> class Top(r4.Selecting):
     ...     above = r4.Float(0.0)
+    ...
     ...     @staticmethod
     ...     def select(above, points):
     ...         return points[:, 2] > above

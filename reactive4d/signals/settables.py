@@ -5,9 +5,10 @@ from typing import Any, TypeVar
 from reactive4d.engine import Engine, Source
 from reactive4d.engine.frames import NEVER
 from reactive4d.engine.kinds import COMPUTED, FORMULA, SOURCE
+from reactive4d.engine.links import link
 from reactive4d.signals.facade import Signal
 
-__all__ = ["Contents", "Settable", "curve_difference"]
+__all__ = ["Assigned", "Contents", "Settable", "curve_difference"]
 
 T = TypeVar("T")
 INF = float("inf")
@@ -16,7 +17,8 @@ INF = float("inf")
 def curve_difference(old: Any, new: Any) -> list[tuple[float, float]] | None:
     """Where two assigned contents differ, if both are keys of constants; None where that is not known."""
     if isinstance(old, Signal) and isinstance(new, Signal) and old is not new:
-        before, after = getattr(old, "curve", None), getattr(new, "curve", None)
+        before: Any = getattr(old, "curve", None)  # pyright: ignore[reportUnknownArgumentType]
+        after: Any = getattr(new, "curve", None)  # pyright: ignore[reportUnknownArgumentType]
         if before is not None and after is not None and not before.is_live and not after.is_live:
             return before.difference(after)
     return None
@@ -79,3 +81,41 @@ class Settable(Signal[T], Source):
         self._contents()
         self.inputs = ()
         self.kind = COMPUTED
+
+
+class Assigned(Settable[T]):
+    """A settable signal that answers what was assigned to it: a constant, or what another signal answers."""
+
+    __slots__ = ()
+
+    @property
+    def source(self) -> Any:
+        """What was assigned: the constant, the keys, the signal."""
+        return self.content
+
+    def refers(self, content: Any) -> bool:
+        """A signal is a reference."""
+        return isinstance(content, Signal)
+
+    def difference(self, old: Any, new: Any) -> list[tuple[float, float]]:
+        """Where two contents may say something different: keys over keys differ only where their curves do."""
+        spans = curve_difference(old, new)
+        return super().difference(old, new) if spans is None else spans
+
+    def adopt(self) -> None:
+        """A constant makes it a source, a signal a formula that passes that one on."""
+        content: Any = self.content
+        if isinstance(content, Signal):
+            self._be_formula(content)
+            # What is remembered outside of the spans that differ stays clean, and must hear of edits of the new one.
+            link(self, self.inputs)
+        else:
+            self._be_source()
+
+    def function(self, *values: Any) -> Any:
+        """The value of the signal that was assigned."""
+        return self.accepted(values[1])
+
+    def accepted(self, value: Any) -> Any:
+        """A signal's value, if it is of the right type."""
+        return value

@@ -10,11 +10,10 @@ import numpy as np
 
 from reactive4d.arrays import freeze
 from reactive4d.engine import Axis, Engine, Source
-from reactive4d.engine.links import link
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.signals.facade import Operand, Signal
 from reactive4d.signals.kernels import numbers
-from reactive4d.signals.settables import Settable, curve_difference
+from reactive4d.signals.settables import Assigned
 
 __all__ = ["Parameter", "Time", "Variable", "time"]
 
@@ -47,7 +46,7 @@ class Time(Signal[float], Source):
 time: Time = Time(None, name="time")
 
 
-class Variable(Settable[T], Generic[T]):
+class Variable(Assigned[T], Generic[T]):
     """A free signal that can be set, to a constant or to another signal.
 
     >>> import reactive4d as r4
@@ -81,34 +80,6 @@ class Variable(Settable[T], Generic[T]):
         if isinstance(content, Signal):
             refuse_reading_itself(self, content)
         self.set_content(content)
-
-    @property
-    def source(self) -> Any:
-        """What was set: the constant or the signal."""
-        return self.content
-
-    def refers(self, content: Any) -> bool:
-        """A signal is a reference."""
-        return isinstance(content, Signal)
-
-    def difference(self, old: Operand, new: Operand) -> list[tuple[float, float]]:
-        """Where two contents may say something different: keys over keys differ only where their curves do."""
-        spans = curve_difference(old, new)
-        return super().difference(old, new) if spans is None else spans
-
-    def adopt(self) -> None:
-        """A constant makes it a source, a signal a formula that passes that one on."""
-        content = self.content
-        if isinstance(content, Signal):
-            self._be_formula(content)
-            # What is remembered outside of the spans that differ stays clean, and must hear of edits of the new one.
-            link(self, self.inputs)
-        else:
-            self._be_source()
-
-    def function(self, *values: Any) -> Any:
-        """The value of the signal that was set."""
-        return values[1]
 
     def vectorised(self, *values: Any) -> Any:
         """The values of the signal that was set."""
