@@ -45,7 +45,14 @@ def _change(value: Any) -> Change:
 
 
 class Sent(Note):
-    """That a change was sent to another object: who remembers it can edit it, or take it back."""
+    """That a change was sent to another object: who remembers it can edit it, or take it back.
+
+    >>> import reactive4d as r4
+    >>> lamp, flower = r4.Light("point"), r4.Cone()
+    >>> turn = lamp.send(r4.Rotate(30), to=flower)
+    >>> next(note for note in lamp.changes if isinstance(note, r4.Sent)).source("to") is flower
+    True
+    """
 
     __slots__ = ()
 
