@@ -163,7 +163,7 @@ def test_the_demo_fits_the_terminal(columns: int):
 
     assert (run.returncode, run.stderr) == (0, "")
     assert max(map(len, run.stdout.splitlines())) <= columns
-    assert "ball.height" in run.stdout
+    assert "lightgray" in run.stdout
 
 
 def test_the_demo_needs_no_unicode():
@@ -175,25 +175,60 @@ def test_the_demo_needs_no_unicode():
 
 
 def test_the_demo_counts_evaluations(capsys: pytest.CaptureFixture[str]):
-    """
-    The demo's second table: asking again evaluates nothing, nor does asking after an edit and its reversal.
-
-        keys --> ball.height --> echo.height
-                             `-> kite.x <-- wind
-    """
+    """The demo's last table: asking again evaluates nothing, nor does asking after an edit and its reversal."""
     assert main(["demo"]) == 0
     lines = capsys.readouterr().out.splitlines()
     runs = {name: int(line.split()[-2]) for line in lines for name in STORY if line.startswith(name)}
 
     assert runs["ask for all of it"] > 0
     assert runs["ask again"] == 0
-    assert 0 < runs["move the last key"] < runs["ask for all of it"]
+    assert 0 < runs["move the egg's point at 2 s"] < runs["ask for all of it"] / 10
     assert runs["move it back"] == 0
-    assert 0 < runs["more wind"] < runs["ask for all of it"]
-    assert runs["less wind again"] == 0
+    assert 0 < runs["lift the camera by 1 m"] < runs["ask for all of it"] / 2
+    assert runs["disable that"] == 0
 
 
-STORY = ["ask for all of it", "ask again", "move the last key", "move it back", "more wind", "less wind again"]
+STORY = [
+    "ask for all of it",
+    "ask again",
+    "move the egg's point at 2 s",
+    "move it back",
+    "lift the camera by 1 m",
+    "disable that",
+]
+
+
+def test_the_demo_shows_what_the_script_says(capsys: pytest.CaptureFixture[str]):
+    """At three instants: where the egg is, what the light has for a colour, and how long these answers hold."""
+    assert main(["demo", "--times", "0", "2", "4"]) == 0
+    told = capsys.readouterr().out
+    lines = [re.split(r"\s{2,}", line) for line in told.splitlines()]
+
+    assert re.findall(r"^At (.*)$", told, re.MULTILINE) == ["0 s", "2 s", "4 s"]
+    assert [line[2] for line in lines if line[0] == "egg"] == ["1.00 1.00 1.00", "1.00 1.00 2.50", "1.00 1.00 2.50"]
+    assert [line[-1] for line in lines if line[0] == "light"] == ["magenta", "magenta", "yellow"]
+    assert [line[3] for line in lines if line[0] == "light"] == [
+        "0.00 0.87 -0.50",
+        "0.00 0.00 -1.00",
+        "0.00 -0.50 -0.87",
+    ]
+
+
+def test_a_script_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """`reactive4d show` reads any script; one that cannot be read is refused with its place."""
+    script = tmp_path / "ball.scefo"
+    script.write_text('object (ball) sphere color = <0, "red">, <2, "blue">;', encoding="utf-8")
+    assert main(["show", str(script), "--at", "0", "3"]) == 0
+    told = capsys.readouterr().out
+    assert re.findall("At (.*)", told) == ["0 s", "3 s"]
+    assert re.findall("red|blue", told) == ["red", "blue"]
+    assert "from 2 s" in told
+
+    script.write_text("object (ball) spere;", encoding="utf-8")
+    assert main(["show", str(script)]) == 1
+    assert f"{script}:1:15: unknown kind 'spere'" in capsys.readouterr().err
+    assert main(["show", str(tmp_path / "none.scefo")]) == 1
+    assert "none.scefo: No such file" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -202,7 +237,7 @@ STORY = ["ask for all of it", "ask again", "move the last key", "move it back", 
         (["dmeo"], "dmeo"),
         (["demo", "--times", "soon"], "soon"),
         (["demo", "--times", "nan"], "nan"),
-        (["demo", "--wind", "strong"], "strong"),
+        (["show", "ball.scefo", "--at", "now"], "now"),
         (["--colour"], "--colour"),
     ],
 )

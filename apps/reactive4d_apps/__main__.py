@@ -8,8 +8,10 @@ import shutil
 import sys
 from collections.abc import Iterable, Sequence
 
+import reactive4d as r4
 from reactive4d.errors import Reactive4dError
 from reactive4d_apps import demo
+from reactive4d_apps.shows import answers_of, show
 
 __all__ = ["main"]
 
@@ -31,14 +33,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if words.command is None:
         parser.print_help()
         return 0
+    width = shutil.get_terminal_size().columns
     try:
-        _show(demo.story(words.times, wind=words.wind, width=shutil.get_terminal_size().columns))
+        if words.command == "demo":
+            _show(demo.story(words.times, width=width))
+        else:
+            _show(show(answers_of(r4.Scene.load(words.script)), words.at, width=width))
     except Reactive4dError as error:
         print("reactive4d:", error, *getattr(error, "__notes__", ()), sep="\n  ", file=sys.stderr)
         return 1
     except BrokenPipeError:
         # Whoever read has read enough; what is still in the buffer goes nowhere instead of failing at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        print(f"reactive4d: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
     return 0
 
 
@@ -47,19 +56,20 @@ def _parser() -> argparse.ArgumentParser:
     version = importlib.metadata.version("reactive4d")
     parser.add_argument("--version", action="version", version=f"reactive4d {version}")
     commands = parser.add_subparsers(dest="command", metavar="command", title="commands")
-    about = "ask a small animated model for a few instants"
+    about = "ask a small animated scene for a few instants"
     shown = commands.add_parser("demo", help=about, description=f"{about.capitalize()} and print what it answers.")
     default = " ".join(f"{t:g}" for t in demo.TIMES)
-    shown.add_argument(
-        "--times",
-        type=_number,
-        nargs="+",
-        default=demo.TIMES,
-        metavar="T",
-        help=f"instants, seconds (default {default})",
-    )
-    shown.add_argument("--wind", type=_number, default=1.0, metavar="W", help="the reader's parameter (default 1)")
+    _add_times(shown, "--times", demo.TIMES, default)
+    about = "print what the scene of a script shows at some instants"
+    shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")
+    shown.add_argument("script", metavar="script.scefo", help="a script; see docs/scefo.md")
+    _add_times(shown, "--at", (0.0,), "0")
     return parser
+
+
+def _add_times(parser: argparse.ArgumentParser, name: str, default: Sequence[float], told: str) -> None:
+    about = f"instants, seconds (default {told})"
+    parser.add_argument(name, type=_number, nargs="+", default=default, metavar="T", help=about)
 
 
 def _number(word: str) -> float:

@@ -48,7 +48,7 @@ def stacked(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
         rows: the cells of each row.
 
     Returns:
-        The lines, without trailing blanks; each column is a paragraph under its name.
+        The lines, without trailing blanks; each column is a paragraph under its name, without its empty cells.
 
     >>> print(*stacked(["t", "height", "lamp"], [["0", "3\n[0, 1)", "off"], ["10", "1", "on"]]), sep="\n")
     height
@@ -67,5 +67,7 @@ def stacked(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
         width = max(len(cell[0]) for cell in cells)
         lines += ["", head[column]] if lines else [head[column]]
         for label, cell in zip(labels, cells, strict=True):
+            if not cell[0]:
+                continue
             lines.append(f"  {label.rjust(indent)}  {cell[0].ljust(width)}  {' '.join(cell[1:])}".rstrip())
     return lines
