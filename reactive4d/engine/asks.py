@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ask", "read"]
 
+acquire, release = LOCK.acquire, LOCK.release
+
 
 def ask(cell: "Cell", t: float, point: "Point | None") -> Hit:
     """Bring a cell up to date from outside of any evaluation, the lock held; the hit may hold a `Failure`."""
@@ -41,29 +43,22 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
     engine = cell.engine
     if frame.cell.engine is not engine:
         raise EvaluationError(f"{frame.cell.name} reads {cell.name}, which belongs to another engine")
-    me = frame.me
     if is_held():
         raise entered_twice(cell.name)
-    with LOCK:
+    me = frame.me
+    acquire()
+    try:
         if engine.epoch != frame.epoch:
             recheck(engine, frame)
-        sole = cell.sole
-        if (
-            sole is not None
-            and not sole[0].clean
-            and point is None
-            and frame.nested < 0.0
-            and cell.busy is None
-            and engine.owner is None
-            and not engine.logs
-            and len(me.stacks) < DEPTH
-            and refresh(engine, cell, t, me)
-        ):
-            if engine.epoch != frame.epoch:
-                recheck(engine, frame)
-            hit = cell.hit
-            if hit[0] <= t < hit[1] and hit[5] is None:
-                return hit
+        if frame.nested < 0.0 and len(me.stacks) < DEPTH:
+            sole = cell.sole
+            is_simple = sole is not None and not sole[0].clean and point is None and cell.busy is None
+            if is_simple and engine.owner is None and not engine.logs and refresh(engine, cell, t, me):
+                hit = cell.hit
+                if engine.epoch != frame.epoch:
+                    recheck(engine, frame)
+                elif hit[0] <= t < hit[1] and hit[5] is None:
+                    return hit
         hit = None if engine.owner is not None and engine.owner is not me else peek(engine, cell, t, point)
         if hit is None:
             if len(me.stacks) >= DEPTH:
@@ -78,4 +73,6 @@ def read(cell: "Cell", frame: Task, t: float, point: "Point | None") -> Hit:
                 recheck(engine, frame)
         elif engine.logs:
             engine.emit("reused", cell, hit[0], hit[1])
+    finally:
+        release()
     return hit

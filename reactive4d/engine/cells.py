@@ -47,6 +47,8 @@ __all__ = ["Axis", "Cell", "Computed", "Formula", "Source", "moment", "narrow", 
 
 INF = math.inf
 
+acquire, release = LOCK.acquire, LOCK.release
+
 
 class Cell(Hits):
     """A value that depends on where one asks, and is computed when, and only when, somebody asks."""
@@ -123,21 +125,25 @@ class Cell(Hits):
         engine = self.engine
         if is_held():
             raise entered_twice(self.name)
-        with LOCK:
+        me = here.me
+        acquire()
+        try:
             if self.busy is None and engine.owner is None and not engine.logs and t < INF:
                 hits.attended += 1
                 try:
-                    done = refresh(engine, self, t + 0.0, here.me)
+                    refresh(engine, self, t + 0.0, me)
                 except (CycleFound, Suspended):
-                    done = False  # the general way tells the path
+                    pass  # the general way tells the path
                 finally:
                     hits.attended -= 1
-                hit = self.hit
-                if done and hit[0] <= t < hit[1] and hit[5] is None:
-                    self.hot = hit[:3]
+                lo, hi, value, _, _, axes = self.hit
+                if lo <= t < hi and axes is None:
+                    self.hot = (lo, hi, value)
                     if (engine.bytes > engine.limit or engine.unpaid) and hits.attended == hits.logging:
                         engine.trim()
-                    return hit[2]
+                    return value
+        finally:
+            release()
         return self._asked(t, {})
 
     def _is_batch(self, t: Any) -> bool:

@@ -72,7 +72,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
     these: tuple[int, ...]
     rest: Any
     known: int
-    values: list[Any]
+    values: list[Any] = EMPTY
     stamps: list[int]
     runs: int
     cell: Cell
@@ -106,18 +106,21 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                     break
                 value, stamp = hit[2], hit[3]
             changed = stamp != segment.stamps[0]
-            values, these = EMPTY, (stamp,)
+            these = (stamp,)
         else:
             below = None
             if begun and begun[-1][0] is cell:
                 _, source, known, rest, values, stamps, changed = begun[-1]
-                hit = _found(engine, source, t, start, stop)
-                if hit is None:
-                    break
+                lo, hi, value, stamp, _, axes = source.hit
+                if start < lo or hi < stop or axes is not None:
+                    hit = _found(engine, source, t, start, stop)
+                    if hit is None:
+                        break
+                    value, stamp = hit[2], hit[3]
                 begun.pop()
-                values.append(hit[2])
-                stamps.append(hit[3])
-                changed = changed or hit[3] != known
+                values.append(value)
+                stamps.append(stamp)
+                changed = changed or stamp != known
             else:
                 rest, values, stamps = zip(reads, segment.stamps, strict=True), [], []
                 changed = False
@@ -158,14 +161,15 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
             is_usual = True
             if changed:
                 runs = cell.runs = cell.runs + 1
-                is_timed = not runs & 63 or runs < 4
                 if is_formula:
                     function = cell.function
-                    started = perf_counter() if is_timed else 0.0
                     release()
                     try:
-                        value = function(value) if alone is not None else function(*values)
-                        if is_timed:
+                        if runs & 63 and runs > 3:
+                            value = function(value) if alone is not None else function(*values)
+                        else:
+                            started = perf_counter()
+                            value = function(value) if alone is not None else function(*values)
                             engine.timed(cell, perf_counter() - started)
                         if type(value) is not float:
                             value = engine.freeze(value)
@@ -189,14 +193,17 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                         frame.cell, frame.t, frame.epoch = cell, t, epoch
                     # Only what holds shorter than the remembered answer narrows the new one.
                     frame.lo, frame.hi = start, stop
-                    frame.nested = 0.0 if is_timed else -1.0
-                    started = perf_counter() if is_timed else 0.0
                     outer = me.frame
                     me.frame = frame
                     release()
                     try:
-                        value = rule()
-                        if is_timed:
+                        if runs & 63 and runs > 3:
+                            frame.nested = -1.0
+                            value = rule()
+                        else:
+                            frame.nested = 0.0
+                            started = perf_counter()
+                            value = rule()
                             engine.timed(cell, perf_counter() - started - frame.nested)
                         if type(value) is not float:
                             value = engine.freeze(value)
@@ -214,23 +221,27 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                     if engine.epoch != epoch:
                         return False
                     deps = frame.deps
-                    these = tuple(deps.values())
-                    if (
-                        frame.lo == start
-                        and frame.hi == stop
-                        and tuple(deps) == reads
-                        and frame.axes is None
-                        and not frame.mapped
-                    ):
+                    if frame.lo != start or frame.hi != stop or frame.axes is not None or frame.mapped or not deps:
+                        is_usual = False
+                    elif alone is not None:
+                        source, stamp = deps.popitem()
+                        if source is not alone or deps:
+                            deps[source] = stamp
+                            is_usual = False
+                        these = (stamp,)
+                    elif tuple(deps) == reads:
+                        these = tuple(deps.values())
                         deps.clear()
+                    else:
+                        is_usual = False
+                    if is_usual:
                         frame.raised = frame.handed = None
                         del frame.cell  # else the thread would keep it alive
                         me.spare = frame
                     else:
-                        is_usual = False
                         new = MappedReads(deps) if frame.mapped else tuple(deps)
                         table = cell if frame.axes is None else table_for(cell, frame.axes, None)
-                        store(engine, cell, table, t, frame.lo, frame.hi, None, value, new, these)
+                        store(engine, cell, table, t, frame.lo, frame.hi, None, value, new, tuple(deps.values()))
                 before = segment.value
                 if not is_usual:
                     pass

@@ -77,6 +77,9 @@ class Hits(Table):
                 except ValueError:  # an array among the values
                     pass
         elif not attended:
+            sole = self.sole
+            if sole is not None and t.__class__ is float and not sole[0].clean:
+                return self._refreshed(t)
             if t.__class__ is int:
                 t = float(t)
                 if lo <= t < hi:

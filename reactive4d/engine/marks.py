@@ -48,52 +48,41 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
         readers = cell.readers
         if readers is None:
             continue
-        if type(readers) is not Readers:
+        dead: list[Any] = []
+        for ref, maps in readers.items() if type(readers) is Readers else ((readers, None),):
+            reader = ref()
+            if reader is None:
+                dead.append(ref)
+                continue
+            if maps is not None:
+                for a, b in preimages(maps, lo, hi):
+                    _push_elsewhere(engine, reader, a, b, walks, stack)
+                continue
             # Along a chain, where each has one reader, at once to its end.
-            while True:
-                reader = readers()
-                if reader is None:
-                    cell.readers = None
-                    break
+            a, b = lo, hi
+            while reader is not None:
                 sole = reader.sole
-                if sole is None or logs:
-                    _push_here(engine, reader, lo, hi, stack)
+                if sole is None or sole[1] < a or b < sole[2] or logs:
+                    _push_here(engine, reader, a, b, stack)
                     break
-                segment, start, stop, _, _, _ = sole
-                if start < lo or hi < stop:
-                    _push_here(engine, reader, lo, hi, stack)
-                    break
+                segment = sole[0]
                 if not segment.clean:
                     break
                 segment.clean = False
                 reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
-                readers = reader.readers
-                if readers is None:
+                above = reader.readers
+                if above is None:
                     break
-                cell, lo, hi = reader, start, stop
-                if type(readers) is Readers:
-                    stack.append((cell, lo, hi))
+                a, b = sole[1], sole[2]
+                if type(above) is Readers:
+                    stack.append((reader, a, b))
                     break
-            continue
-        dead: list[Any] = []
-        for ref, maps in readers.items():
-            reader = ref()
-            if reader is None:
-                dead.append(ref)
-            elif maps is None:
-                sole = reader.sole
-                if sole is None or sole[1] < lo or hi < sole[2] or logs:
-                    _push_here(engine, reader, lo, hi, stack)
-                elif sole[0].clean:
-                    sole[0].clean = False
-                    reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
-                    if reader.readers is not None:
-                        stack.append((reader, sole[1], sole[2]))
-            else:
-                for a, b in preimages(maps, lo, hi):
-                    _push_elsewhere(engine, reader, a, b, walks, stack)
+                reader = above()
         for ref in dead:
-            readers.pop(ref, None)
+            if type(readers) is Readers:
+                readers.pop(ref, None)
+            else:
+                cell.readers = None
 
 
 def _push_here(
