@@ -44,6 +44,7 @@ class Scene(MutableMapping[str, Object]):
 
     def __init__(self, objects: Mapping[str, Object] | None = None, /, **named: Object) -> None:
         self._contents = Contents((), name="scene.objects")
+        self._named: tuple[Items, dict[Any, Object]] = ((), {})
         self.signals: dict[str, Any] = {}
         self.remembered: Any = None  # how the script read that it was read from, for who writes it
         self._bundles: dict[tuple[Any, ...], Gathered] = {}
@@ -54,9 +55,9 @@ class Scene(MutableMapping[str, Object]):
     # -- what it holds ---------------------------------------------------------------------------------------------
 
     def __getitem__(self, name: str) -> Object:
-        for known, obj in self._contents.content:
-            if known == name:
-                return obj
+        found = self._by_name().get(name)
+        if found is not None:
+            return found
         error = KeyError(name)
         near = unknown(str(name), [known for known, _ in self._contents.content], what="object")
         raise hint(error, "; ".join(near.__notes__).removeprefix("hint: "))
@@ -76,7 +77,16 @@ class Scene(MutableMapping[str, Object]):
         return len(self._contents.content)
 
     def __contains__(self, name: object) -> bool:
-        return any(known == name for known, _ in self._contents.content)
+        return name in self._by_name()
+
+    def _by_name(self) -> dict[Any, Object]:
+        """What it holds, for looking up; made again when it holds something else."""
+        items, named = self._named
+        if items is not self._contents.content:
+            items = self._contents.content
+            named = dict(items)
+            self._named = items, named
+        return named
 
     def update(self, objects: Any = (), /, **named: Any) -> None:
         """Name several objects at once: one edit.
