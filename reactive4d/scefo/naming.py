@@ -13,7 +13,7 @@ from reactive4d.model.channels import Channel
 from reactive4d.model.gates import Gate
 from reactive4d.model.objects import Object
 from reactive4d.model.prototypes import Prototype
-from reactive4d.model.registries import spoken_name
+from reactive4d.model.registries import CHANGES, KINDS, spoken_name
 from reactive4d.model.scenes import Scene
 from reactive4d.scefo.constructors import MOST_POINTS
 from reactive4d.scefo.operators import is_live
@@ -22,7 +22,7 @@ from reactive4d.scefo.scopes import CHANNELS
 from reactive4d.scefo.trees import Boolean, Call, Expression, Items, Number, Path, Record, Text
 from reactive4d.scefo.unparsing import NotWritableError
 
-__all__ = ["Naming"]
+__all__ = ["Naming", "called"]
 
 # Names that signals have where nobody gave them one.
 _GIVEN_TO_ALL: Final = frozenset({"affine", "keys", "signal", "variable"})
@@ -103,8 +103,24 @@ class Naming:
         if isinstance(x, Change):
             return Path((self.label(x),))
         if isinstance(x, type) and issubclass(x, Object):
-            return Text(spoken_name(x))
+            return Text(called(x))
         return _mesh(x) if isinstance(x, Mesh) else None
+
+
+def called(found: type[Object] | type[Change]) -> str:
+    """The name of a kind or of a class of changes.
+
+    Raises:
+        NotWritableError: another class has the name by now, and would be read instead.
+    """
+    registry = KINDS if issubclass(found, Object) else CHANGES
+    known = registry.get(found.script, found)
+    if (known.__module__, known.__qualname__) != (found.__module__, found.__qualname__):
+        error = NotWritableError(
+            f"{found.__module__}.{found.__qualname__} has the same name in scripts as another class"
+        )
+        raise hint(error, f'that is {known.__module__}.{known.__qualname__}; a class is called by its script = "name"')
+    return spoken_name(found)
 
 
 def _plain(name: str) -> str:

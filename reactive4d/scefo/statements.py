@@ -23,7 +23,7 @@ from reactive4d.scefo.circles import circles
 from reactive4d.scefo.classics import SET_PARAMETER
 from reactive4d.scefo.collecting import Collection, assigned_to, gating_of
 from reactive4d.scefo.memories import Memory, Worded
-from reactive4d.scefo.naming import Naming
+from reactive4d.scefo.naming import Naming, called
 from reactive4d.scefo.operators import is_live
 from reactive4d.scefo.phrasing import Phrasing, is_plain
 from reactive4d.scefo.reading import FOLDER, MADE_OF, NAMELESS, SOURCE, TEMPLATE, class_of, reads_files
@@ -339,7 +339,7 @@ class _Writer:
         elif is_extension and made_of is not None:
             statement = Template(Name(name), made_of, settings, is_hidden=is_hidden, notes=notes)
         else:
-            kind = Name(spoken_name(type(obj)))
+            kind = Name(called(type(obj)))
             statement = Create(Name(name), kind, settings, is_hidden=is_hidden, notes=notes)
         self._say(statement)
         remembered = self.memory.assignments.get(obj, {})
@@ -353,7 +353,8 @@ class _Writer:
 
     def _show(self, count: int) -> None:
         """Show the first objects of the scene, as many as there shall be."""
-        for i in range(count):
+        while self.shown < count:
+            i = self.shown
             name, obj = self.order[i]
             self._need([obj])
             if self.shown == i:
@@ -435,7 +436,7 @@ class _Writer:
         self._take_definitions()
         notes = NO_NOTES if worded is None else worded.tree.notes
         named = None if label is None else Name(label)
-        return Operation(Name(spoken_name(kind)), tuple(attributes), label=named, notes=notes)
+        return Operation(Name(called(kind)), tuple(attributes), label=named, notes=notes)
 
     # -- names of values -------------------------------------------------------------------------------------------
 

@@ -24,7 +24,7 @@ SMALL = {"segments": 4, "rings": 3, "stacks": 2, "samples": 6, "resolution": 8}
 # -- kinds and changes of one's own, in a dozen lines ------------------------------------------------------------------
 
 
-class Pyramid(r4.Object):
+class Ziggurat(r4.Object):
     """A kind of one's own."""
 
     width = r4.Float(1.0, low=0.0, unit="m")
@@ -37,7 +37,7 @@ class Pyramid(r4.Object):
     )
 
 
-class Hop(r4.Transform):
+class Vault(r4.Transform):
     """A change of one's own."""
 
     height = r4.Float(1.0, unit="m")
@@ -253,10 +253,10 @@ def messages() -> r4.Scene:
 
 def ones_own() -> r4.Scene:
     """A kind and a change that are none of the package's."""
-    roof = Pyramid(width=2, height=r4.keys({0: 1, 2: 3}))
-    roof.apply(Hop(np.sin(T)))
+    roof = Ziggurat(width=2, height=r4.keys({0: 1, 2: 3}))
+    roof.apply(Vault(np.sin(T)))
     ball = r4.Sphere(segments=6, rings=4)
-    ball.apply(r4.Become(Pyramid, enabled=T > 1))
+    ball.apply(r4.Become(Ziggurat, enabled=T > 1))
     ball.parameters["width"] = 0.3
     return r4.Scene(roof=roof, ball=ball)
 
@@ -387,6 +387,21 @@ def test_what_cannot_be_written_is_named_with_its_path(what: str, tmp_path: Path
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_a_name_that_means_another_class_is_not_written() -> None:
+    """It would be read as the class that was defined last."""
+    first: Any = type("Crate", (r4.Box,), {"__module__": "one"})
+    scene = r4.Scene(crate=first())
+    assert r4.dumps(scene) == "object (crate) own.crate;\n"
+    type("Crate", (r4.Box,), {"__module__": "two"})
+    try:
+        with pytest.raises(r4.NotWritableError, match=r"one\.Crate has the same name in scripts as another class"):
+            r4.dumps(scene)
+        type("Crate", (r4.Box,), {"__module__": "one"})  # defined again, as notebooks do
+        assert r4.dumps(scene) == "object (crate) own.crate;\n"
+    finally:
+        del KINDS["crate"]
+
+
 # -- scenes at random --------------------------------------------------------------------------------------------------
 
 OURS = {name: kind for name, kind in KINDS.items() if kind.__module__.startswith("reactive4d.") and "." not in name}
@@ -488,7 +503,7 @@ class Builder:
             case "Reference":
                 return self.random.choice([None, *self.objects])
             case "KindOf":
-                return self.random.choice([r4.Box, "cone", Pyramid])
+                return self.random.choice([r4.Box, "cone", Ziggurat])
             case _:
                 return {"source": None, "rotation": r4.Rotation.from_axis_angle("y", self.number())}.get(
                     setting.name, ("anything", 1, None)
@@ -498,7 +513,7 @@ class Builder:
         if self.objects and self.chance(0.25):
             obj: Any = self.random.choice(self.objects).extend()
         else:
-            kind = self.random.choice([*OURS.values(), Pyramid])
+            kind = self.random.choice([*OURS.values(), Ziggurat])
             obj = kind.__new__(kind)
             r4.Object.__init__(obj)
             for name in SMALL:
@@ -516,7 +531,7 @@ class Builder:
     def change(self) -> Any:
         if self.changes and self.chance(0.15):
             return self.random.choice(self.changes)
-        kind: Any = self.random.choice([*CHANGES_OF_OURS.values(), Hop])
+        kind: Any = self.random.choice([*CHANGES_OF_OURS.values(), Vault])
         if kind.script == "sent":
             return r4.Translate((1, 0, 0))
         given = {s.name: self.value(s) for s in kind.settings if s.default is None and not s.is_optional}
