@@ -6,7 +6,7 @@ from typing import get_args
 
 import pytest
 
-from reactive4d.scefo.functions import FUNCTIONS
+from reactive4d.scefo.constructors import SCENE_FUNCTIONS as FUNCTIONS
 from reactive4d.scefo.parsing import parse
 from reactive4d.scefo.words import RESERVED
 from reactive4d.scefo.writing import write
