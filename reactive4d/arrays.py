@@ -15,6 +15,7 @@ SCALAR: Any = np.generic
 
 _Array = np.ndarray[Any, Any]
 
+_SMALL = 1 << 14  # bytes that are copied sooner than looked at in parts
 _HEAD = 1 << 10  # bytes that are compared first
 _MOST = 1 << 18  # bytes that are compared at once
 
@@ -56,7 +57,7 @@ def _same_arrays(a: _Array, b: _Array) -> bool:
     """Large arrays are compared a part at a time: nothing large is copied, and a difference is found where it is."""
     if a.shape != b.shape or a.dtype != b.dtype or a.dtype.hasobject:
         return False
-    if a.nbytes <= _HEAD:
+    if a.nbytes <= _SMALL:
         return a.tobytes() == b.tobytes() or _same_but_for_nan(a, b)
     step = max(1, _HEAD // a.itemsize)
     if not _same_parts(a.flat[:step], b.flat[:step]):
@@ -66,7 +67,7 @@ def _same_arrays(a: _Array, b: _Array) -> bool:
     a, b = np.ascontiguousarray(a).reshape(-1), np.ascontiguousarray(b).reshape(-1)
     start = step
     while start < a.size:
-        step = min(2 * step, _MOST // a.itemsize + 1)
+        step = min(8 * step, _MOST // a.itemsize + 1)
         if not _same_parts(a[start : start + step], b[start : start + step]):
             return False
         start += step
@@ -75,7 +76,7 @@ def _same_arrays(a: _Array, b: _Array) -> bool:
 
 def _same_parts(a: _Array, b: _Array) -> bool:
     word = f"u{math.gcd(a.itemsize, 8)}"
-    return np.array_equal(a.view(word), b.view(word)) or _same_but_for_nan(a, b)
+    return bool((a.view(word) == b.view(word)).all()) or _same_but_for_nan(a, b)
 
 
 def _same_but_for_nan(a: _Array, b: _Array) -> bool:

@@ -81,7 +81,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
     below: Sole | None
     stamp = 0
     begun: list[Begun] = []
-    epoch, revivals, new_stamp = engine.epoch, engine.revivals, engine.stamp
+    epoch, revivals, new_stamp, spares = engine.epoch, engine.revivals, engine.stamp, me.spares
     cell = stack[-1]
     root = cell
     sole = cell.sole or _sole(cell)
@@ -185,12 +185,11 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                         return False
                 else:
                     rule = cell.rule
-                    frame = me.spare
-                    if frame is None:
-                        frame = Task(cell, t, None, me, epoch)
-                    else:
-                        me.spare = None
+                    if spares:
+                        frame = spares.pop()
                         frame.cell, frame.t, frame.epoch = cell, t, epoch
+                    else:
+                        frame = Task(cell, t, None, me, epoch)
                     # Only what holds shorter than the remembered answer narrows the new one.
                     frame.lo, frame.hi = start, stop
                     outer = me.frame
@@ -237,7 +236,7 @@ def express(engine: "Engine", stack: list[Any], t: float, claim: Claim, me: Me) 
                     if is_usual:
                         frame.raised = frame.handed = None
                         del frame.cell  # else the thread would keep it alive
-                        me.spare = frame
+                        spares.append(frame)
                     else:
                         new = MappedReads(deps) if frame.mapped else tuple(deps)
                         table = cell if frame.axes is None else table_for(cell, frame.axes, None)

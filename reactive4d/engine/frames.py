@@ -67,16 +67,16 @@ class CycleFound(BaseException):
 class Me:
     """A thread: the task whose rule it runs, the walks that it has under way, one in another, and whom it waits for.
 
-    `spare` and `claims` are used again, since making objects is a good part of what a recomputed cell costs.
+    `spares` and `claims` are used again, since making objects is a good part of what a recomputed cell costs.
     """
 
-    __slots__ = ("claims", "frame", "spare", "stacks", "waiting")
+    __slots__ = ("claims", "frame", "spares", "stacks", "waiting")
 
     def __init__(self) -> None:
         self.frame: Task | None = None
         self.stacks: list[list[Any]] = []
         self.waiting: Claim | None = None
-        self.spare: Task | None = None
+        self.spares: list[Task] = []
         self.claims: list[Claim] = []
 
 

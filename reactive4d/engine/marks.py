@@ -62,18 +62,22 @@ def push(engine: "Engine", cell: "Cell", lo: float, hi: float) -> None:
             a, b = lo, hi
             while reader is not None:
                 sole = reader.sole
-                if sole is None or sole[1] < a or b < sole[2] or logs:
+                if sole is None:
                     _push_here(engine, reader, a, b, stack)
                     break
                 segment = sole[0]
                 if not segment.clean:
+                    break
+                start, stop = sole[1], sole[2]
+                if start < a or b < stop or logs:
+                    _push_here(engine, reader, a, b, stack)
                     break
                 segment.clean = False
                 reader.hit, reader.hot, reader.warm = NEVER, COLD, COOL
                 above = reader.readers
                 if above is None:
                     break
-                a, b = sole[1], sole[2]
+                a, b = start, stop
                 if type(above) is Readers:
                     stack.append((reader, a, b))
                     break
