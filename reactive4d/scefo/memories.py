@@ -6,6 +6,7 @@ What was edited since is written anew; what was not stands as it stood.
 from typing import Any, Final, NamedTuple
 from weakref import WeakKeyDictionary
 
+from reactive4d.model.changes import Change
 from reactive4d.model.objects import Object
 from reactive4d.model.places import Entry, Place
 from reactive4d.scefo.operators import is_live
@@ -79,6 +80,7 @@ class Memory:
     Attributes:
         objects: the statements that made them.
         entries: the operations that put them into the list of an object.
+        loose: the operations that made changes for no object yet.
         assignments: the operations that set a setting of an object, by its name.
         definitions: of signals and values, by name.
         shows: where objects were put into the scene by statements of their own, and the comments of these, by name.
@@ -89,6 +91,7 @@ class Memory:
     def __init__(self) -> None:
         self.objects: WeakKeyDictionary[Object, Told] = WeakKeyDictionary()
         self.entries: WeakKeyDictionary[Entry, Worded] = WeakKeyDictionary()
+        self.loose: WeakKeyDictionary[Change, Worded] = WeakKeyDictionary()
         self.assignments: WeakKeyDictionary[Object, dict[str, Worded]] = WeakKeyDictionary()
         self.definitions: dict[str, Defined] = {}
         self.shows: dict[str, tuple[Place, Notes]] = {}

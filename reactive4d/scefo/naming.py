@@ -48,6 +48,12 @@ class Naming:
             if is_live(value):
                 self.signals.setdefault(id(value), name)
 
+    def remember(self, x: Object | Change, name: str) -> None:
+        """Call something as the script did that it was read from, if its name is still free and nobody else's."""
+        if name.startswith(NAMELESS) and name not in self.taken and id(x) not in self.names:
+            self.names[id(x)] = name
+            self.taken.add(name)
+
     def free(self, wanted: str) -> str:
         """A name like this one that is not taken; it is by now."""
         name, i = wanted, 2

@@ -246,6 +246,8 @@ class _Reader:
             change, phrases = self.made(operation)
             if operation.label is not None:
                 self.scope.define(operation.label, change)
+            if not targets:
+                self.memory.loose[change] = Worded(operation, phrases, self.number, places.last())
         for obj in targets:
             entry = _appended(obj, change)
             self.memory.entries[entry] = Worded(operation, phrases, self.number, entry.place)

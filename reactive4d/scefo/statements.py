@@ -21,7 +21,7 @@ from reactive4d.model.scenes import Scene
 from reactive4d.model.settings import Setting
 from reactive4d.scefo.circles import circles
 from reactive4d.scefo.classics import SET_PARAMETER
-from reactive4d.scefo.collecting import Collection, assigned_to, gating_of
+from reactive4d.scefo.collecting import Collection, assigned_to, gating_of, owner_of
 from reactive4d.scefo.memories import Memory, Worded
 from reactive4d.scefo.naming import Naming, called
 from reactive4d.scefo.operators import is_live
@@ -87,7 +87,7 @@ class _Writer:
         self.naming = Naming(scene)
         self.unparsing = Unparsing(self.naming.name_of, self.naming.of_signal, None)
         self.phrasing = Phrasing(self.unparsing, self.naming.free)
-        self.unparsing.count(self.collection.roots)
+        self.unparsing.count(self.collection.roots, is_named=lambda x: owner_of(x) is not None)
         self.named = {**scene.signals, **self._remembered()}
         for value in self.named.values():
             if is_live(value):
@@ -98,6 +98,7 @@ class _Writer:
         self.late = self._late()
         self.runs = _runs(self.collection.objects, self.memory)
         self.labelled = self._labelled()
+        self._recall_names()
         self.statements: list[Statement] = []
         self.heads = dict(self.memory.heads)
         self.done: set[int] = set()  # ids of objects and changes
@@ -193,6 +194,18 @@ class _Writer:
             if change.is_named or times.get(id(change), 0) != 1 or id(change) in mentioned
         }
 
+    def _recall_names(self) -> None:
+        """Use the names again that are known to the script alone."""
+        for obj in self.collection.objects:
+            told = self.memory.objects.get(obj)
+            if told is not None and told.tree.is_hidden:
+                self.naming.remember(obj, told.tree.name.text)
+        worded = [(run.change, run.worded) for run in self.runs] + [*self.memory.loose.items()]
+        for change, words in worded:
+            label = words.tree.label if words is not None and isinstance(words.tree, Operation) else None
+            if label is not None and id(change) in self.labelled:
+                self.naming.remember(change, label.text)
+
     # -- the whole -------------------------------------------------------------------------------------------------
 
     def script(self) -> Script:
@@ -204,6 +217,7 @@ class _Writer:
                 if name in self.contents[id(obj)]:
                     events.append((worded.place, 1, (obj, name)))
         events += [(run.entries[0].place, 2, run) for run in self.runs]
+        events += [(w.place, 5, change) for change, w in self.memory.loose.items() if id(change) in self.labelled]
         for name in self.named:
             if name in self.memory.definitions:
                 events.append((self.memory.definitions[name].place, 3, name))
@@ -224,6 +238,8 @@ class _Writer:
             self._need([event])
         elif isinstance(event, _Run):
             self._change(event)
+        elif isinstance(event, ModelChange):
+            self._need([event])
         elif isinstance(event, str):
             self._define(event)
         elif isinstance(event, int):
@@ -296,7 +312,7 @@ class _Writer:
     def _is_hidden(self, x: Any) -> bool:
         """Whether an object was made hidden, and shown by a statement of its own."""
         told = self.memory.objects.get(x) if isinstance(x, Object) else None
-        return told is not None and told.tree.is_hidden and self.naming.of_object(x) in self.memory.shows
+        return told is not None and told.tree.is_hidden and told.tree.name.text in self.memory.shows
 
     # -- objects ---------------------------------------------------------------------------------------------------
 
@@ -406,8 +422,10 @@ class _Writer:
     def _foretell(self, change: ModelChange) -> None:
         """A change that is mentioned before it stands in any list."""
         self.done.add(id(change))
-        operation = self._told(change, None)
-        self._say(Change((), (operation,)))
+        worded = self.memory.loose.get(change)
+        operation = self._told(change, worded)
+        notes = NO_NOTES if worded is None else self.heads.pop(worded.number, NO_NOTES)
+        self._say(Change((), (operation,), notes=notes))
 
     def _told(self, change: ModelChange, worded: Worded | None) -> Operation:
         """A change with its values."""

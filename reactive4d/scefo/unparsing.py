@@ -165,15 +165,21 @@ class Unparsing:
         self.names: list[tuple[Signal[Any], str]] = []
         self.nodes = 0
 
-    def count(self, roots: Sequence[Any]) -> None:
-        """Count how often each signal is used by all that will be written: what is shared is defined."""
+    def count(self, roots: Sequence[Any], *, is_named: Callable[[Any], bool] | None = None) -> None:
+        """Count how often each signal is used by all that will be written: what is shared is defined.
+
+        Args:
+            roots: all that will be written.
+            is_named: whether a signal has a name; by default one asks for it.
+        """
+        is_named = is_named or (lambda x: self.name_of(x) is not None)
         todo = list(_signals(list(roots)))
         for x in todo:
             self.counts[id(x)] = self.counts.get(id(x), 0) + 1
         seen: set[int] = set()
         while todo:
             x = todo.pop()
-            if id(x) in seen or self.name_of(x) is not None:
+            if id(x) in seen or is_named(x):
                 continue
             seen.add(id(x))
             for part in _signals(parts_of(x)):

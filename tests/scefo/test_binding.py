@@ -163,6 +163,24 @@ def test_comments_outlast_edits() -> None:
     )
 
 
+def test_names_that_the_script_alone_knows_are_kept() -> None:
+    """Of hidden objects, changes and signals: they have none in the scene, but the script is not renamed."""
+    text = """\
+hidden object (_left) box; // hidden
+change () _hop: translate {0, 0, 1}; // for later
+signal (_half) 0.5 * time;
+template (right) _left;
+change (right) rotate _half, scale _half, use _hop;
+template (other) _left;
+change (other) look_at _hop.offset;
+"""
+    scene = r4.loads(text)
+    assert "".join(re.split(r"\s", r4.dumps(scene))) == "".join(re.split(r"\s", text))
+    assert not scene["right"].prototype_content.is_named
+    assert not scene["right"].changes[2].is_named
+    assert scene.signals == {}
+
+
 # -- files -------------------------------------------------------------------------------------------------------------
 
 
