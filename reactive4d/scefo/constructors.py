@@ -4,13 +4,15 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Final
 
+import numpy as np
+
 from reactive4d.arrays import ARRAY
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.objects import Object
 from reactive4d.scefo.functions import FUNCTIONS, ScriptFunction
 
-__all__ = ["MOST_POINTS", "SCENE_FUNCTIONS"]
+__all__ = ["MOST_POINTS", "SCENE_FUNCTIONS", "numbers_of"]
 
 MOST_POINTS: Final = 10_000  # of a mesh that is written in a script
 
@@ -32,6 +34,19 @@ def _mesh(points: Any, faces: Any, attributes: Any = None) -> Mesh:
         if type(array) is not ARRAY:
             raise ShapeError(f'mesh: expected {name} = array("float32", …), got {array!r}')
     return Mesh(points, faces, arrays)
+
+
+def numbers_of(array: Any) -> Any:
+    """The numbers of an array as nested lists, as short as they can be written for its type.
+
+    >>> import numpy as np
+    >>> numbers_of(np.float32([0.1, 0.5])), numbers_of(np.float64(np.float32([0.1])))
+    ([0.1, 0.5], [0.10000000149011612])
+    """
+    if array.dtype != np.float32 or not np.isfinite(array).all():
+        return array.tolist()
+    short = np.array([float(str(x)) for x in array.ravel()]).reshape(array.shape)
+    return np.where(short.astype(np.float32) == array, short, array).tolist()
 
 
 _TABLE: Final = (

@@ -15,7 +15,7 @@ from reactive4d.model.objects import Object
 from reactive4d.model.prototypes import Prototype
 from reactive4d.model.registries import CHANGES, KINDS, spoken_name
 from reactive4d.model.scenes import Scene
-from reactive4d.scefo.constructors import MOST_POINTS
+from reactive4d.scefo.constructors import MOST_POINTS, numbers_of
 from reactive4d.scefo.operators import is_live
 from reactive4d.scefo.reading import NAMELESS
 from reactive4d.scefo.scopes import CHANNELS
@@ -139,10 +139,10 @@ def _mesh(mesh: Mesh) -> Expression:
         error = NotWritableError(f"a mesh of {len(mesh.points)} points is too large for a script")
         raise hint(error, "geometry.files.dump(mesh, 'name.ply') writes it into a file, Model('name.ply') reads it")
     attributes = [
-        (name, Call("array", (Text(array.dtype.name), _rows(array.tolist()))))
+        (name, Call("array", (Text(array.dtype.name), _rows(numbers_of(array)))))
         for name, array in mesh.attributes.items()
     ]
-    parts: list[Expression] = [_rows(mesh.points.tolist()), _rows(mesh.faces.tolist())]
+    parts: list[Expression] = [_rows(numbers_of(mesh.points)), _rows(mesh.faces.tolist())]
     if attributes:
         parts.append(Record(tuple(attributes)))
     return Call("mesh", tuple(parts))

@@ -13,6 +13,7 @@ from reactive4d.model.kinds.aggregates import Members
 from reactive4d.model.objects import Anything
 from reactive4d.model.settings import AXES, Float, Held, Integer, Setting, Vector
 from reactive4d.scefo.classics import SHADES
+from reactive4d.scefo.constructors import numbers_of
 from reactive4d.scefo.contents import fits
 from reactive4d.scefo.expressions import is_numeric
 from reactive4d.scefo.memories import Phrase
@@ -96,7 +97,7 @@ class Phrasing:
         if isinstance(content, ARRAY):
             if content.size == 0 and content.ndim != 1:
                 raise NotWritableError(f"an array of shape {content.shape} cannot be written in a script")
-            return Call("array", (Text(content.dtype.name), self.unparsing.literal(_tuples(content.tolist()))))
+            return Call("array", (Text(content.dtype.name), self.unparsing.literal(_tuples(numbers_of(content)))))
         made: Expression
         if isinstance(content, tuple):
             parts: Any = content  # pyright: ignore[reportUnknownVariableType]

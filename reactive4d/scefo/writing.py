@@ -311,11 +311,14 @@ def _flat_attribute(x: Attribute) -> str | None:
 
 
 def _lines(x: Attribute, head: str, margin: str) -> list[_Line]:
-    """An attribute behind a head; keys in lines of their own where they do not fit or have comments."""
+    """An attribute behind a head; keys and lists in lines of their own where they do not fit or have comments."""
     flat = _flat_attribute(Attribute(x.name, x.value))
-    if flat is not None and (len(margin) + len(head) + len(flat) < _WIDTH or not isinstance(x.value, Curve)):
+    if flat is not None and len(margin) + len(head) + len(flat) < _WIDTH:
         return [_Line(head + flat)]
-    assert isinstance(x.value, Curve)
+    if not isinstance(x.value, Curve):
+        name = "" if x.name is None else f"{_named(x.name)} = "
+        first, *rest = _broken(x.value, _SUM, _WIDTH - len(margin) - 1)
+        return [_Line(head + name + first), *map(_Line, rest)]
     lines = [_Line(head.rstrip() if x.name is None else f"{head}{_named(x.name)} =")]
     points = x.value.points
     for i, point in enumerate(points):
@@ -323,6 +326,37 @@ def _lines(x: Attribute, head: str, margin: str) -> list[_Line]:
         text = _point(point) + ("," if i < len(points) - 1 else _options(x.value))
         lines += _indented([*map(_Line, before), _Line(text, after)])
     return lines
+
+
+def _broken(x: Expression, level: int, width: int) -> list[str]:
+    """An expression in lines that fit into a width, where it has lists that can be broken."""
+    flat = _written(x, level)
+    if len(flat) <= width:
+        return [flat]
+    if isinstance(x, Items):
+        opening, parts, closing = "{", [_broken(item, _OR, width - len(_INDENT)) for item in x.items], "}"
+    elif isinstance(x, Record):
+        opening, closing = "{", "}"
+        parts = [_prefixed(f"{name_text(name)}: ", _broken(value, _OR, width - 12)) for name, value in x.entries]
+    elif isinstance(x, Call):
+        opening, closing = f"{name_text(x.function)}(", ")"
+        parts = [_broken(argument, _OR, width - len(_INDENT)) for argument in x.arguments]
+    else:
+        return [flat]
+    lines: list[str] = []
+    for i, part in enumerate(parts):
+        # Short members stand side by side, as many as fit.
+        is_beside = i > 0 and len(part) == 1 and len(lines[-1]) + 1 + len(part[0]) < width - len(_INDENT)
+        if is_beside and not part[0].startswith("{") and not lines[-1].startswith("}"):
+            lines[-1] += f" {part[0]}"
+        else:
+            lines += part
+        lines[-1] += "," if i < len(parts) - 1 else ""
+    return [opening, *[_INDENT + line for line in lines], closing]
+
+
+def _prefixed(text: str, lines: list[str]) -> list[str]:
+    return [text + lines[0], *lines[1:]]
 
 
 def _indented(lines: list[_Line]) -> list[_Line]:
