@@ -110,6 +110,8 @@ class Phrasing:
             if not all(isinstance(name, str) for name, _ in entries):
                 raise NotWritableError("a record whose names are not strings cannot be written in a script")
             made = Record(tuple([(name, self._held(value, may_live=may_live)) for name, value in entries]))
+        elif isinstance(content, type):
+            raise NotWritableError(f"the class {content.__name__} cannot be written in a script")
         else:
             return self.unparsing.literal(content)
         if made.depth < _DEEP:

@@ -14,7 +14,7 @@ import numpy as np
 from reactive4d.arrays import ARRAY
 from reactive4d.engine import Affine
 from reactive4d.errors import Reactive4dError, ScriptError, ShapeError, hint
-from reactive4d.model.channels import Question
+from reactive4d.model.channels import Channel, Question
 from reactive4d.scefo.functions import LIST, NAMED
 from reactive4d.scefo.operators import MOST_BITS, WRITTEN_BETWEEN, is_live
 from reactive4d.scefo.trees import (
@@ -555,6 +555,8 @@ def _ease(ease: Any) -> str:
 
 
 def _opaque(x: Any) -> NotWritableError:
+    if is_a(x, Channel):
+        return NotWritableError(f"the signal {x.name} cannot be asked for in a script")
     return _opaque_function(x.name or type(x).__name__)
 
 

@@ -259,6 +259,23 @@ def ones_own() -> r4.Scene:
     return r4.Scene(roof=roof, ball=ball)
 
 
+def asking() -> r4.Scene:
+    """Objects that ask others: their speed, what is inside of them, whether their changes act, what they say."""
+    ball, box = r4.Sphere(segments=6, rings=4), r4.Box()
+    ball.translate(r4.vec(np.sin(T), T, 0), enabled=T < 4)
+    box.translate(ball.velocity * 0.1 + ball.acceleration)
+    box.opacity = r4.where(ball.contains([(0, 0, 0), (0, 1, 0)])[0], 0.5, 1.0)
+    box.rotate(10, enabled=ball.changes[0].enabled)
+    box.apply(r4.LinkedXForm(r4.keys({0: ball, 2: r4.Box()})))
+    eye = ball.position.delay(0.5) + (0, -5, 0)
+    duct = r4.Duct([r4.Circle(0.1, segments=5)], path=r4.keys({0: r4.Line(), 3: r4.Line(stop=(0, 0, 2))}))
+    extension = r4.Box()
+    extension.prototype = r4.where(T < 1, ball, box)
+    scene = r4.Scene(ball=ball, box=box, camera=r4.Camera(eye, box.position), duct=duct, other=extension)
+    scene.signals |= {"speed": ball.velocity, "switch": ball.changes[0].enabled, "made_of": extension.prototype}
+    return scene
+
+
 def figures() -> r4.Scene:
     """Classic values: rotate about a point and an axis, a matrix, a lattice, colours, orientations."""
     box = r4.Box(segments=2)
@@ -274,7 +291,7 @@ def figures() -> r4.Scene:
 
 SCENES: tuple[Callable[[], r4.Scene], ...] = (
     shared_keys, shared_change, mentioned_later, rivets, inserted, for_a_while, car_of_the_year, robot,
-    circle_of_settings, driven, awkward_names, out_of_order, kept, in_memory, messages, ones_own, figures,
+    circle_of_settings, driven, awkward_names, out_of_order, kept, in_memory, messages, ones_own, asking, figures,
 )  # fmt: skip
 
 
@@ -357,6 +374,9 @@ def opaque() -> dict[str, tuple[r4.Scene, str]]:
     odd = r4.Sphere(radius=r4.keys({0: 1.0, 2: "red"}, kind="held"))
     ball = r4.Sphere()
     ball.parameters["tool"] = object()
+    hidden, kinds = r4.Sphere(), r4.Sphere()
+    hidden.parameters["list"] = ball.acting
+    kinds.parameters["list"] = (r4.Box,)
     signals = r4.Scene()
     signals.signals["wave"] = T.map(half)
     return {
@@ -367,6 +387,8 @@ def opaque() -> dict[str, tuple[r4.Scene, str]]:
         "a large mesh": (r4.Scene(model=large), "model.source: a mesh of .* points is too large"),
         "a key of another type": (r4.Scene(ball=odd), "ball.radius: Sphere.radius: expected a number, got 'red'"),
         "a thing": (r4.Scene(ball=ball), "ball.tool: the value <object object"),
+        "an inner signal": (r4.Scene(ball=hidden, other=ball), "ball.list: the signal .*acting cannot be asked"),
+        "a class": (r4.Scene(ball=kinds), "ball.list: the class Box"),
         "a signal's name": (signals, "wave: the Python function half"),
     }
 
