@@ -24,6 +24,7 @@ Floats: TypeAlias = NDArray[np.float64]
 
 _A, _B, _C = 22.0 / 9.0, 17.0 / 9.0, 4.0 / 9.0
 _MOST = 1 << 25  # lattice points: 128 MB of float32
+_FARTHEST = 1e30  # metres; beyond, float32 has no numbers
 
 
 def reach(radius: float = 1.0, *, strength: float = 1.0, threshold: float = 0.5) -> float:
@@ -238,6 +239,8 @@ def _blobs(centers: ArrayLike, radii: ArrayLike, strengths: ArrayLike) -> tuple[
         raise ShapeError("centers and strengths: expected finite numbers")
     if not (np.isfinite(sizes).all() and (sizes > 0).all()):
         raise ShapeError(f"radii: expected positive numbers, got {sizes.tolist()}")
+    if max(sizes.max(initial=0.0), np.abs(places).max(initial=0.0)) > _FARTHEST:
+        raise ShapeError(f"centers and radii: expected at most {_FARTHEST:g}")
     return places, np.broadcast_to(sizes, (count,)), np.broadcast_to(weights, (count,))
 
 

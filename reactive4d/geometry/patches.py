@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError
-from reactive4d.geometry import curves, grids
+from reactive4d.geometry import curves, grids, sizes
 from reactive4d.geometry.curves import Kind
 from reactive4d.geometry.meshes import Mesh
 
@@ -213,6 +213,7 @@ def _strips(segments: Pair, closed: Flags) -> tuple[grids.Strip, grids.Strip]:
 def _checked(segments: Pair) -> None:
     if len(segments) != 2 or min(segments) < 1:
         raise ShapeError(f"segments: expected two numbers of at least 1, got {tuple(segments)}")
+    sizes.bearable((segments[0] + 1) * (segments[1] + 1))
 
 
 def _net(controls: ArrayLike) -> Floats:

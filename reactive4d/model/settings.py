@@ -188,7 +188,10 @@ class Float(Typed[float, float | Signal[Any] | None]):
                 return None
             if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.number):
                 raise self.refused("a number", number)
-            number = float(number)
+            try:
+                number = float(number)
+            except OverflowError:
+                raise self.refused(self._range(), number) from None
         if not self.low <= number <= self.high or number in (math.inf, -math.inf):
             raise self.refused(self._range(), number)
         return number
@@ -330,7 +333,7 @@ class Vector(Typed[Array, Numbers | None]):
             value = AXES[value]
         try:
             array: Array = np.asarray(value, dtype=np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise self.refused(self._expected(), value) from None
         if self.spreads and array.ndim == 0:
             array = np.array([float(array)] * (self.shape[0] or 0))
@@ -540,7 +543,7 @@ class Reference(Setting[Any]):
         return value if is_signal(value) else self._object(value)
 
     def _object(self, value: Any) -> Any:
-        if value is None or hasattr(value, "changes"):
+        if value is None or (hasattr(value, "changes") and not isinstance(value, type)):
             return value
         error = self.refused("an object", value)
         raise hint(error, "give the object itself, or keys of objects with kind='held'")

@@ -1,6 +1,6 @@
 """Aggregates: objects that are made of others, a group of them or a combination of solids."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,8 @@ OPERATIONS = {
 
 def _members(value: Any) -> tuple[tuple[str, Object], ...]:
     given: Any = value
+    if not isinstance(value, Iterable):
+        raise hint(ShapeError(f"members: expected a list of objects, got {given!r}"), "a single one, too: [it]")
     pairs: Any = given.items() if isinstance(value, Mapping) else given
     found: list[tuple[str, Object]] = []
     for i, pair in enumerate(pairs):

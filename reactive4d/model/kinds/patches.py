@@ -43,7 +43,7 @@ class Patch(Object):
     net = Vector(_flat(), size=(None, None, 3), unit="m", doc="the control points; rows along v")
     interpolation = Choice("bezier", options=("bezier", "bspline", "catmull_rom", "linear"), doc="what is between them")
     degrees = Vector((3, 3), size=2, low=1, is_whole=True, doc="of a B-spline, along v and u")
-    segments = Vector((16, 16), size=2, spreads=True, low=1, is_whole=True, doc="how many, along v and u")
+    segments = Vector((16, 16), size=2, spreads=True, low=1, high=16_384, is_whole=True, doc="how many, along v and u")
     deforms = Choice("surface", options=("surface", "hull"), doc="what deformations move: all, or the control points")
     closed = Vector((0, 0), size=2, low=0, is_whole=True, doc="1 where the last row or column joins the first")
 

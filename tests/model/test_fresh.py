@@ -1,0 +1,50 @@
+"""What a newcomer tries first and last: odd members, odd counts, copies, prototypes of another kind."""
+
+from typing import Any
+
+import pytest
+
+import reactive4d as r4
+
+
+@pytest.mark.parametrize("kind", [r4.Group, r4.Hull])
+@pytest.mark.parametrize("members", [3, 1.5, True, r4.Box, r4.Twist(3), r4.Box()])
+def test_members_that_are_no_list_are_refused(kind: Any, members: Any):
+    """A number, a class or a single object in place of a list of objects is a ShapeError, not a foreign exception."""
+    with pytest.raises(r4.ShapeError, match="members: expected"):
+        kind(members)
+
+
+@pytest.mark.parametrize("segments", [10**9, (10**9, 1)])
+def test_a_patch_of_endless_segments_is_refused(segments: Any):
+    """Counts that no mesh can have are refused where they are set."""
+    with pytest.raises(r4.ShapeError, match=r"Patch\.segments: expected numbers of at most"):
+        r4.Patch(segments=segments)
+
+
+@pytest.mark.parametrize("channel", ["points", "topology", "uv", "mesh"])
+def test_a_patch_of_too_many_points_is_refused_before_it_takes_memory(channel: str):
+    """Counts that together would take gigabytes are refused, whichever channel is asked."""
+    sheet = r4.Patch(segments=16_384)
+    with pytest.raises(r4.ShapeError, match="the segment counts make"):
+        getattr(sheet, channel).at(0.0)
+
+
+def test_a_blob_as_large_as_floats_go_is_refused():
+    """Radii whose differences overflow are a ShapeError."""
+    with pytest.raises(r4.ShapeError):
+        r4.Blob(radii=1e308).mesh.at(0.0)
+
+
+def test_a_whole_number_beyond_floats_is_refused():
+    """Python's whole numbers have no end; what no float holds is refused like infinity."""
+    with pytest.raises(r4.ShapeError, match=r"Sphere\.radius: expected a number of at least 0"):
+        r4.Sphere(radius=10**400)
+    with pytest.raises(r4.ShapeError, match=r"Box\.size: expected"):
+        r4.Box(size=(1, 1, 10**400))
+
+
+def test_the_class_of_an_object_is_no_object():
+    """A class in place of an object is refused at the border."""
+    with pytest.raises(r4.ShapeError, match="expected an object"):
+        r4.LinkedXForm(r4.Box)
