@@ -72,7 +72,8 @@ class Attribute(Settable[T]):
             return self.setting.default
         if content is INHERITED:
             prototype = self.object.prototype.at(0.0)
-            return self.setting.default if prototype is None else prototype.attribute(self.setting.name).source
+            found = None if prototype is None else prototype.attribute(self.setting.name).source
+            return self.setting.default if found is None else found
         return content
 
     @property
@@ -133,9 +134,8 @@ class Attribute(Settable[T]):
         if self.own is not None:
             self.own.note()
         prototype = self.object.prototype.now()
-        if prototype is None:
-            return self.setting.default_value
-        return self.setting.check(prototype.attribute(self.setting.name).now())
+        found = None if prototype is None else prototype.attribute(self.setting.name).now()
+        return self.setting.default_value if found is None else self.setting.check(found)
 
     def function(self, *values: Any) -> Any:
         """The value of the signal that was set, if it is of the setting's type."""

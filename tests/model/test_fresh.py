@@ -30,6 +30,21 @@ def test_a_patch_of_too_many_points_is_refused_before_it_takes_memory(channel: s
         getattr(sheet, channel).at(0.0)
 
 
+def test_a_setting_that_the_prototype_does_not_know_is_the_default():
+    """A box that extends a sphere has the size of a box until it is set, at all times, also in `source`."""
+    box = r4.Box()
+    box.prototype = r4.Sphere(radius=2)
+    assert box.size.at(0.0).tolist() == [1.0, 1.0, 1.0]
+    assert box.size.source.tolist() == [1.0, 1.0, 1.0]
+    assert box.volume.at(0.0) == pytest.approx(33.510321638)
+    ball = r4.Sphere()
+    ball.prototype = r4.keys({0: r4.Box(), 2: r4.Sphere(radius=2)}, interpolation="step")
+    assert (ball.radius.at(1.0), ball.radius.at(2.0)) == (0.5, 2.0)
+    first: Any = box.prototype_content
+    first.parameters["size"] = (1, 2, 3)
+    assert box.size.at(0.0).tolist() == [1.0, 2.0, 3.0]
+
+
 def test_a_blob_as_large_as_floats_go_is_refused():
     """Radii whose differences overflow are a ShapeError."""
     with pytest.raises(r4.ShapeError):
