@@ -164,6 +164,8 @@ class Changes(MutableSequence[Change]):
             raise TypeError("move: expected one of before= and after=")
         with engine.transaction():
             entry = self._owned(self._entry(change))
+            if change is before or change is after:
+                return
             self._take(entry)
             entries = self.entries
             other = self._entry(before if before is not None else after)

@@ -59,6 +59,15 @@ def test_a_whole_number_beyond_floats_is_refused():
         r4.Box(size=(1, 1, 10**400))
 
 
+def test_a_change_moved_before_itself_stays():
+    """Moving a change right before or after itself changes nothing."""
+    box = r4.Box()
+    twist, bend = box.apply(r4.Twist(3)), box.apply(r4.Bend(3))
+    box.changes.move(twist, before=twist)
+    box.changes.move(twist, after=twist)
+    assert list(box.changes) == [twist, bend]
+
+
 def test_the_class_of_an_object_is_no_object():
     """A class in place of an object is refused at the border."""
     with pytest.raises(r4.ShapeError, match="expected an object"):
