@@ -15,7 +15,7 @@ looked at when the channel is asked, and only these channels hear of an edit.
 import re
 import weakref
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NoReturn, Self, overload
 
 from reactive4d.engine import engine
 from reactive4d.errors import Reactive4dError, hint, unknown
@@ -168,6 +168,13 @@ class Change:
             if content is None and not setting.is_optional:
                 raise Reactive4dError(f"{cls.__name__} needs {setting.name}")
         self._contents = tuple(contents)
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        """A change is itself and no other: a copy would share its signals with it."""
+        raise hint(
+            TypeError(f"{self.name} is a change: it cannot be copied or pickled"),
+            "apply the same one to several objects, or make another one: Twist(twist.angle.source)",
+        )
 
     # -- its attributes --------------------------------------------------------------------------------------------
 

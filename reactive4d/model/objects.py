@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -114,6 +114,13 @@ class Object:
             if setting is None:
                 raise unknown(name, known, what=f"setting of {type(self).__name__}")
             self._raw[name] = setting.admit(value)
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        """An object is itself and no other: a copy would share its signals with it."""
+        raise hint(
+            TypeError(f"{self.name} is an object: it cannot be copied or pickled"),
+            "obj.extend() obeys the same changes; dumps and loads make another scene",
+        )
 
     # -- its name --------------------------------------------------------------------------------------------------
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, NoReturn, Self
 
 from reactive4d.engine import Formula, Source, engine
 from reactive4d.errors import ShapeError, hint, unknown
@@ -51,6 +51,13 @@ class Scene(MutableMapping[str, Object]):
         self._root: Function[Root] = Function(self._rooted, name="scene.root")
         self._frame: Function[tuple[Root, Bundle]] = Function(self._shown, name="scene")
         self.update({**(objects or {}), **named})
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        """A scene is itself and no other: a copy would share its contents with it."""
+        raise hint(
+            TypeError("a scene cannot be copied or pickled"),
+            "Scene(scene) holds the same objects; loads(dumps(scene)) makes others",
+        )
 
     # -- what it holds ---------------------------------------------------------------------------------------------
 

@@ -1,5 +1,7 @@
 """What a newcomer tries first and last: odd members, odd counts, copies, prototypes of another kind."""
 
+import copy
+import pickle
 from typing import Any
 
 import pytest
@@ -43,6 +45,15 @@ def test_a_setting_that_the_prototype_does_not_know_is_the_default():
     first: Any = box.prototype_content
     first.parameters["size"] = (1, 2, 3)
     assert box.size.at(0.0).tolist() == [1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize("make", [r4.Box, lambda: r4.Twist(30), lambda: r4.Scene(a=r4.Box())])
+def test_what_has_an_identity_is_not_copied(make: Any):
+    """A copy would share its insides with the original and change with it: refused, with what to do instead."""
+    for attempt in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="cannot be copied or pickled") as caught:
+            attempt(make())
+        assert "hint" in caught.value.__notes__[0]
 
 
 def test_a_blob_as_large_as_floats_go_is_refused():
