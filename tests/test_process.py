@@ -81,6 +81,17 @@ def test_the_graph_as_data_text_and_dot() -> None:
     assert r4.graph().cells == {}
 
 
+def test_signals_of_one_name_are_told_together() -> None:
+    """Nothing is left out because two signals are called alike."""
+    x = r4.Variable(1.0, name="process_namesake")
+    signals = [r4.lift(lambda value: value + 1.0)(x) for _ in range(3)]
+    for each in signals:
+        each.at(0)
+    told = r4.stats(signals)
+    assert told["evaluations"] == 3
+    assert [entry["evaluations"] for entry in told["cells"].values()] == [3]
+
+
 def test_stats_of_one_signal_of_some_or_of_all() -> None:
     """Evaluations, seconds, answers and bytes by signal; hits while a log is open."""
     s = r4.lift(lambda x: x)(r4.Variable(1.0, name="process_x"))

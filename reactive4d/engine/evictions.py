@@ -332,12 +332,12 @@ def forget(engine: "Engine", cells: "Iterable[Cell] | None") -> None:
 
 
 def stats(engine: "Engine", cells: "Iterable[Cell] | None") -> dict[str, Any]:
-    """What the memo holds, in all and by cell."""
+    """What the memo holds, in all and by cell; cells of one name are told together."""
     chosen = [cell for ref in engine.keepers if (cell := ref()) is not None] if cells is None else list(cells)
     by_cell: dict[str, dict[str, Any]] = {}
     for cell in chosen:
         answers = sum(len(table.segments) for table in tables(cell))
-        by_cell[cell.name] = {
+        told = {
             "evaluations": cell.runs,
             "seconds": cell.runs * cell.cost,
             "answers": answers,
@@ -345,6 +345,8 @@ def stats(engine: "Engine", cells: "Iterable[Cell] | None") -> dict[str, Any]:
             "hits": cell.hits,
             "seconds_saved": cell.hits * cell.cost,
         }
+        namesake = by_cell.get(cell.name)
+        by_cell[cell.name] = told if namesake is None else {key: told[key] + namesake[key] for key in told}
     return {
         "bytes": sum(entry["bytes"] for entry in by_cell.values()),
         "budget": engine.budget,
