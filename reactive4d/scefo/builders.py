@@ -10,10 +10,10 @@ from reactive4d.scefo.drafts import (
     gathered,
     operations_of,
     taken_from_last,
-    wrong,
 )
 from reactive4d.scefo.notes import behind
 from reactive4d.scefo.precedences import arithmetic, logic
+from reactive4d.scefo.refusals import wrong
 from reactive4d.scefo.tokens import Token
 from reactive4d.scefo.trees import (
     NO_NOTES,

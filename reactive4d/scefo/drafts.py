@@ -4,17 +4,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from reactive4d.errors import ScriptError, hint
+from reactive4d.errors import hint
 from reactive4d.scefo.notes import behind
+from reactive4d.scefo.refusals import wrong
 from reactive4d.scefo.tokens import Token
 from reactive4d.scefo.trees import NO_NOTES, Attribute, Curve, Name, Notes, Operation, Place, Point, Use
 
-__all__ = ["Draft", "DraftedOperation", "Option", "gathered", "operations_of", "taken_from_last", "wrong"]
-
-
-def wrong(message: str, at: Place, *, expected: Iterable[str] = ()) -> ScriptError:
-    """The error for something that stands at a place."""
-    return ScriptError(message, line=at.line, column=at.column, expected=expected)
+__all__ = ["Draft", "DraftedOperation", "Option", "gathered", "operations_of", "taken_from_last"]
 
 
 class Option:
