@@ -272,7 +272,7 @@ def test_what_is_not_known_here_is_kept() -> None:
     text = """\
 object (gear) acme.gear teeth = 12 shape = {{0, 1}, "involute", time};
 change (gear)
-    own.wobble <0, 1>, <2, 3> values = {1, 2} lane = "fast" enabled = <0, true>, <1, false>,
+    own.tremble <0, 1>, <2, 3> values = {1, 2} lane = "fast" enabled = <0, true>, <1, false>,
     translate {1, 0, 0};
 template (other) gear teeth = 13;
 object (ball) sphere;
@@ -287,7 +287,7 @@ signal (speed) late.enabled;
     assert r4.dumps(r4.loads(r4.dumps(scene))) == r4.dumps(scene)
     np.testing.assert_array_equal(scene["other"].position.at(0.0), (1, 0, 0))
     assert scene["other"].parameters["teeth"].at(0.0) == 13
-    assert gear.notes.at(0.0) == (("own.wobble", {"value": 1.0, "values": (1, 2), "lane": "fast"}),)
+    assert gear.notes.at(0.0) == (("own.tremble", {"value": 1.0, "values": (1, 2), "lane": "fast"}),)
     assert gear.notes.at(1.5) == ()
     assert scene.at(0.0)["gear"].kind == "acme.gear"
     with pytest.raises(r4.Reactive4dError, match=r"kind 'acme\.gear' that is not known here has no faces"):
