@@ -155,7 +155,9 @@ class Changes(MutableSequence[Change]):
             self._take(self._owned(self._entry(value)))
 
     def move(self, change: Change, *, before: Change | None = None, after: Change | None = None) -> None:
-        """Move a change of one's own right before or right after another one, which may be inherited.
+        """Move a change of one's own right before or right after another one of this list, which may be inherited.
+
+        After the last one it comes to the end of the global order.
 
         Raises:
             ValueError: one of them does not stand in the list.
@@ -170,7 +172,8 @@ class Changes(MutableSequence[Change]):
             entries = self.entries
             other = self._entry(before if before is not None else after)
             i = next(i for i, e in enumerate(entries) if e is other)
-            self._put(change, self._after(entries, i - 1 if before is not None else i))
+            is_last = after is not None and i == len(entries) - 1
+            self._put(change, places.last() if is_last else self._after(entries, i if after is not None else i - 1))
 
     # -- how -------------------------------------------------------------------------------------------------------
 

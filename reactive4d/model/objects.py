@@ -33,7 +33,7 @@ from reactive4d.signals.facade import Signal
 if TYPE_CHECKING:
     from reactive4d.geometry.rays import Hits
 
-__all__ = ["Object"]
+__all__ = ["Object", "called"]
 
 C = TypeVar("C", bound=Change)
 Array = NDArray[np.float64]
@@ -585,6 +585,20 @@ class Object:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}>"
+
+
+def called(settings: dict[str, Any], /, **given: Any) -> dict[str, Any]:
+    """Settings, with some that were given under other names or by position.
+
+    Raises:
+        TypeError: one was given under both.
+    """
+    for name, value in given.items():
+        if value is not None:
+            if settings.get(name) is not None:
+                raise TypeError(f"{name} was given twice")
+            settings[name] = value
+    return settings
 
 
 class Parameters(MutableMapping[str, Attribute[Any]]):

@@ -83,3 +83,25 @@ def test_the_class_of_an_object_is_no_object():
     """A class in place of an object is refused at the border."""
     with pytest.raises(r4.ShapeError, match="expected an object"):
         r4.LinkedXForm(r4.Box)
+
+
+def test_a_setting_may_be_given_under_its_own_name() -> None:
+    """What the constructor calls position is the setting eye: either will do, both are one too many."""
+    assert r4.Camera(eye=(1, 2, 3)).eye.at(0.0).tolist() == [1.0, 2.0, 3.0]
+    assert r4.Light(light_type="spot").light_type.at(0.0) == "spot"
+    assert r4.Label("here", anchor=(1, 0, 0)).position.at(0.0).tolist() == [1.0, 0.0, 0.0]
+    assert r4.Prism(outline_of=[(0, 0), (1, 0), (0, 1)]).volume.at(0.0) == pytest.approx(0.5)
+    assert r4.Duct([r4.Circle(0.1)], along_path=[(0, 0, 0), (0, 0, 1)]).volume.at(0.0) > 0
+    with pytest.raises(TypeError, match="eye was given twice"):
+        r4.Camera((0, 0, 0), eye=(1, 2, 3))
+
+
+def test_places_do_not_grow_when_the_last_two_take_turns() -> None:
+    """What is moved behind the last change comes to the end, like what is appended."""
+    box = r4.Box()
+    twist, bend = box.apply(r4.Twist(3)), box.apply(r4.Bend(3))
+    for _ in range(50):
+        box.changes.move(twist, after=bend)
+        box.changes.move(bend, after=twist)
+    assert list(box.changes) == [twist, bend]
+    assert all(len(entry.place) == 1 for entry in box.changes.entries)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from reactive4d.geometry import ducts, prisms, revolutions
 from reactive4d.geometry.meshes import Mesh
-from reactive4d.model.objects import Object
+from reactive4d.model.objects import Object, called
 from reactive4d.model.outlines import Outline, Outlines
 from reactive4d.model.settings import Choice, Flag, Float, Integer, Vector
 from reactive4d.model.tables import Table
@@ -106,7 +106,7 @@ class Prism(Object):
     )
 
     def __init__(self, outline: Any = None, height: Any = None, *, color: Any = None, **settings: Any) -> None:
-        super().__init__(outline_of=outline, height=height, color=color, **settings)
+        super().__init__(height=height, color=color, **called(settings, outline_of=outline))
 
 
 def _carried(
@@ -147,4 +147,4 @@ class Duct(Object):
     table = Table(surface=_carried)
 
     def __init__(self, sections: Any = None, path: Any = None, *, color: Any = None, **settings: Any) -> None:
-        super().__init__(sections=sections, along_path=path, color=color, **settings)
+        super().__init__(sections=sections, color=color, **called(settings, along_path=path))

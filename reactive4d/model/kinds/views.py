@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.geometry import transforms
-from reactive4d.model.objects import Object
+from reactive4d.model.objects import Object, called
 from reactive4d.model.settings import Choice, Flag, Float, Text, Vector
 from reactive4d.model.tables import Table
 
@@ -42,7 +42,7 @@ class Camera(Object):
     def __init__(
         self, position: Any = None, target: Any = None, *, up: Any = None, fov: Any = None, **settings: Any
     ) -> None:
-        super().__init__(eye=position, target=target, up=up, fov=fov, **settings)
+        super().__init__(target=target, up=up, fov=fov, **called(settings, eye=position))
 
 
 class Light(Object):
@@ -64,7 +64,7 @@ class Light(Object):
     shadows = Flag(False, doc="whether things throw shadows in it")
 
     def __init__(self, kind: Any = None, *, color: Any = None, intensity: Any = None, **settings: Any) -> None:
-        super().__init__(light_type=kind, color=color, intensity=intensity, **settings)
+        super().__init__(color=color, intensity=intensity, **called(settings, light_type=kind))
 
 
 def _at_anchor(anchor: Array) -> Array:
@@ -104,7 +104,7 @@ class Label(Object):
     table = Table(placement=_at_anchor, changes={"rotate": _turned_on_screen})
 
     def __init__(self, text: Any = None, *, at: Any = None, **settings: Any) -> None:
-        super().__init__(text=text, anchor=at, **settings)
+        super().__init__(text=text, **called(settings, anchor=at))
 
 
 class Point(Object):
