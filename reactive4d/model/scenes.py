@@ -161,12 +161,6 @@ class Scene(MutableMapping[str, Object]):
         """All nodes as one signal, for whoever watches the scene."""
         return self._frame
 
-    def camera(self) -> Object | None:
-        """Its first camera, or None."""
-        from reactive4d.model.kinds.views import Camera
-
-        return next((obj for _, obj in self._contents.content if isinstance(obj, Camera)), None)
-
     def _rooted(self) -> "Root":
         """The nodes of all objects, in bundles of bundles; what the last ones had in common with these is kept."""
         items: Items = self._contents.now()

@@ -54,7 +54,6 @@ def test_a_frame_shows_every_object_where_it_is() -> None:
     assert frame.time == 2.0
     ball.visible = r4.time < 1
     assert scene.at(2.0)["ball"].visible is False
-    assert scene.camera() is scene["camera"]
 
 
 def test_members_of_a_group_are_drawn_one_by_one() -> None:
