@@ -350,6 +350,15 @@ def test_the_memo_keeps_to_a_budget() -> None:
         r4.budget = budget
 
 
+def test_one_signal_that_keeps_much_is_found_among_many_that_keep_little() -> None:
+    """F108: the budget is kept however many signals there are beside the one that has something to forget."""
+    little = [r4.lift(lambda v: v + 1.0)(r4.Variable(1.0)) for _ in range(500)]
+    for each in little:
+        each.at(0)
+    test_the_memo_keeps_to_a_budget()
+    assert all(each.at(0) == 2.0 for each in little)
+
+
 def test_the_profile_of_time_saved_and_memory_taken() -> None:
     """F109: by signal the evaluations, their seconds, the hits with the seconds that they saved, and the bytes."""
 

@@ -143,7 +143,8 @@ def trim(engine: "Engine") -> None:
     if engine.bytes <= engine.budget:
         return
     for turn in range(4):
-        _sweep(engine, engine.bytes - goal, batches=turn < 2)
+        # The last turn looks at everybody: a sample may miss the one cell that has much to forget.
+        _sweep(engine, engine.bytes - goal, batches=turn < 2, is_whole=turn == 3)
         if engine.bytes <= goal:
             return
     # Only latest answers are left, which stay. Do not look again before a good deal has come on top.
@@ -161,14 +162,14 @@ def _evictable(cell: "Cell") -> list[tuple[Table, Segment]]:
     return [(table, segment) for table in tables(cell) for segment in table.segments if segment is not latest]
 
 
-def _sweep(engine: "Engine", need: int, *, batches: int = 1) -> None:
+def _sweep(engine: "Engine", need: int, *, batches: int = 1, is_whole: bool = False) -> None:
     """One turn of the hand: free `need` bytes from what pays least, judged by a sample; few batches are kept."""
     keepers = engine.keepers
     if not keepers:
         return
     answers = max(64, engine.bytes // (SEGMENT + 100))
     sample: list[tuple[float, int]] = []
-    stride = max(1, len(keepers) // 128)
+    stride = 1 if is_whole else max(1, len(keepers) // 128)
     for ref in keepers[engine.hand % stride :: stride]:
         cell = ref()
         if cell is None:
