@@ -245,7 +245,7 @@ def length(
 ) -> float:
     """The length of a curve, metres: Gauss' quadrature with 8 nodes on `pieces` pieces of each span.
 
-    >>> length([(0, 0, 0), (3, 4, 0), (3, 4, 5)], kind="linear")
+    >>> round(length([(0, 0, 0), (3, 4, 0), (3, 4, 5)], kind="linear"), 12)
     10.0
     """
     return float(_pieces(controls, kind, degree, closed, pieces).sum())

@@ -92,7 +92,7 @@ class Attribute(Settable[T]):
         if is_signal(content):
             if content is self:
                 return
-            _refuse_itself(self, content)
+            refuse_reading_itself(self, content)
         self.set_content(content)
 
     def unassign(self) -> None:
@@ -143,13 +143,6 @@ class Attribute(Settable[T]):
 
 
 INF = float("inf")
-
-
-def _refuse_itself(target: Signal[Any], content: Signal[Any]) -> None:
-    try:
-        refuse_reading_itself(target, content)
-    except Reactive4dError as error:
-        raise error from None
 
 
 class Values(Settable[Any]):

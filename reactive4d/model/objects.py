@@ -423,11 +423,6 @@ class Object:
         """(n, 3), the points of a path or shape in world space."""
         return self.channel("outline", surfaces.outline_of)
 
-    @property
-    def points_of(self) -> Signal[Array]:
-        """(N, 3), the control points of a path."""
-        return self.attribute("controls")
-
     def along(self, u: Any) -> Signal[Array]:
         """(3,), a point of a path in world space, as a signal.
 

@@ -557,7 +557,7 @@ class Places(Vector):
     >>> import reactive4d as r4
     >>> p = r4.Point((1, 0, 0))
     >>> path = r4.Path([(0, 0, 0), p, (2, 1, 0)])
-    >>> path.points_of.at(0.0)[1]
+    >>> path.controls.at(0.0)[1]
     array([1., 0., 0.])
     """
 

@@ -416,7 +416,7 @@ def test_a_path_follows_each_of_its_points() -> None:
     keyed.translate(r4.keys({0: (0, 0, 0), 2: (0, 2, 0)}))
     leader.translate(r4.vec(1, t, 0))
     path = r4.Path([keyed, leader, r4.vec(2, 2 * t, 0), (3, 0, 0)], interpolation="linear", samples=3)
-    assert path.points_of.at(1).tolist() == [[0, 1, 0], [1, 1, 0], [2, 2, 0], [3, 0, 0]]
+    assert path.controls.at(1).tolist() == [[0, 1, 0], [1, 1, 0], [2, 2, 0], [3, 0, 0]]
     assert path.along(1 / 3).at(2).tolist() == [1, 2, 0]
     assert path.bounds.at(2)[1].tolist() == [3, 4, 0]
 

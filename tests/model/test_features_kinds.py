@@ -327,7 +327,7 @@ def test_points_are_control_points_of_others() -> None:
     path = r4.Path([(0, 0, 0), p, (2, 0, 0)], interpolation="linear")
     blob = r4.Blob([p, (0, 0, 0)], radii=0.5, resolution=32)
     p.translate(r4.keys({0: (0, 0, 0), 2: (0, 4, 0)}))
-    assert path.points_of.at(2).tolist() == [[0, 0, 0], [0, 5, 0], [2, 0, 0]]
+    assert path.controls.at(2).tolist() == [[0, 0, 0], [0, 5, 0], [2, 0, 0]]
     assert path.along(0.5).at(1).tolist() == [0, 3, 0]
     assert blob.bounds.at(2)[1, 1] - blob.bounds.at(0)[1, 1] == pytest.approx(4, abs=0.1)
 
