@@ -1,0 +1,167 @@
+"""Chunks: arrays of one type and shape, packed together as they travel.
+
+Two encodings. **raw** keeps every bit: the arrays one after another, little-endian, all first bytes of their items, all
+second bytes, and so on. **u16** keeps floats to within 1/131070 of the range of their column: whole numbers from 0 to
+65535, of each array the differences to the array before (of the first: to the row before), all low bytes, all high
+bytes. Both are deflated (RFC 1951) and written in base 64.
+
+A reference names an array as it was before any encoding.
+"""
+
+import base64
+import binascii
+import math
+import zlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive4d.errors import ShapeError, hint
+from reactive4d.references import reference
+
+__all__ = ["decode", "encode", "extent"]
+
+Array = NDArray[Any]
+DTYPES = {"f32": np.dtype("<f4"), "u32": np.dtype("<u4")}
+STEPS = 65535.0
+
+
+def extent(arrays: Sequence[Array]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The lowest and the highest value of each column over several arrays of k columns, (k,) each; 0 if there is none.
+
+    >>> extent([np.float32([[0, 5], [2, 7]]), np.float32([[1, 9], [1, 9]])])
+    (array([0., 5.]), array([2., 9.]))
+    """
+    filled = [array for array in arrays if len(array)]
+    if not filled:
+        width = arrays[0].shape[1] if arrays else 0
+        return np.zeros(width), np.zeros(width)
+    low = np.min([array.min(axis=0) for array in filled], axis=0).astype(np.float64)
+    high = np.max([array.max(axis=0) for array in filled], axis=0).astype(np.float64)
+    return low, high
+
+
+def encode(
+    arrays: Sequence[Array],
+    *,
+    refs: Sequence[str] | None = None,
+    bounds: tuple[Array, Array] | None = None,
+) -> dict[str, Any]:
+    """Pack arrays into a chunk.
+
+    Args:
+        arrays: at least one, all (n, k) or all (n,), which travels as (n, 1); of float32, or all of uint32.
+        refs: their references, where they are known already.
+        bounds: (k,) lowest and (k,) highest values of the columns: then floats are packed as u16; without, as raw.
+
+    Raises:
+        ShapeError: arrays of different shapes or types, of another type, or not finite or out of bounds as u16.
+
+    >>> chunk = encode([np.float32([[0, 1, 2], [3, 4, 5]])])
+    >>> chunk["shape"], chunk["encoding"], len(chunk["refs"])
+    ([2, 3], 'raw', 1)
+    """
+    kept = [np.ascontiguousarray(array) for array in arrays]
+    if not kept or any(a.shape != kept[0].shape or a.dtype != kept[0].dtype or a.ndim not in (1, 2) for a in kept):
+        shown = [(a.shape, str(a.dtype)) for a in kept]
+        raise ShapeError(f"expected (n,) or (n, k) arrays of one shape and type, got {shown}")
+    names = {np.dtype(dtype.char): name for name, dtype in DTYPES.items()}
+    name = names.get(kept[0].dtype)
+    if name is None:
+        raise ShapeError(f"expected float32 or uint32, got {kept[0].dtype}")
+    chunk: dict[str, Any] = {
+        "refs": list(refs) if refs is not None else [reference(array) for array in kept],
+        "dtype": name,
+        "shape": [*kept[0].shape, 1][:2],
+    }
+    kept = [array.reshape(chunk["shape"]) for array in kept]
+    if bounds is None:
+        return {**chunk, "encoding": "raw", "data": _packed(_shuffled(kept, DTYPES[name]))}
+    if name != "f32":
+        raise ShapeError(f"expected float32 to pack as u16, got {kept[0].dtype}")
+    low, high = (np.asarray(bound, dtype=np.float64) for bound in bounds)
+    planes = _packed(_planes(_quantised(kept, low, high)))
+    return {**chunk, "encoding": "u16", "lo": low.tolist(), "hi": high.tolist(), "data": planes}
+
+
+def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
+    """The arrays of a chunk by their references, frozen.
+
+    Raises:
+        ShapeError: it is no chunk: lengths, shapes or numbers do not fit together.
+
+    >>> array = np.uint32([[0, 1, 2]])
+    >>> decode(encode([array]))
+    {'92e8414bfc4dae5b08f13bfa81b2a564': array([[0, 1, 2]], dtype=uint32)}
+    """
+    refs, dtype, encoding = chunk["refs"], DTYPES.get(chunk["dtype"]), chunk["encoding"]
+    rows, width = chunk["shape"]
+    if dtype is None or encoding not in ("raw", "u16") or (encoding == "u16" and chunk["dtype"] != "f32"):
+        raise hint(ShapeError(f"{encoding!r} of {chunk['dtype']!r} is no encoding"), "raw of f32 or u32, u16 of f32")
+    shape = (len(refs), rows, width)
+    data = _unpacked(chunk["data"], math.prod(shape) * (2 if encoding == "u16" else 4))
+    if encoding == "raw":
+        arrays = np.ascontiguousarray(data.reshape(4, -1).T).view(dtype).reshape(shape)
+    else:
+        low, high = (np.array(chunk[end], dtype=np.float64) for end in ("lo", "hi"))
+        if low.shape != (width,) or high.shape != (width,):
+            raise ShapeError(f"lo, hi: expected {width} numbers each, got {low.shape} and {high.shape}")
+        half = data.reshape(2, -1)
+        deltas = (half[0].astype(np.uint16) + (half[1].astype(np.uint16) << np.uint16(8))).reshape(
+            len(refs), width, rows
+        )
+        if len(refs):
+            deltas[0] = np.cumsum(deltas[0], axis=1, dtype=np.uint16)
+        steps = np.cumsum(deltas, axis=0, dtype=np.uint16)
+        share = np.swapaxes(steps, 1, 2) / STEPS
+        arrays = (low + share * (high - low)).astype(dtype)
+    arrays.setflags(write=False)
+    return dict(zip(refs, arrays, strict=True))
+
+
+def _shuffled(arrays: Sequence[Array], dtype: np.dtype[Any]) -> bytes:
+    whole = np.concatenate([array.astype(dtype, copy=False).reshape(-1) for array in arrays])
+    return np.ascontiguousarray(whole.view(np.uint8).reshape(-1, dtype.itemsize).T).tobytes()
+
+
+def _quantised(arrays: Sequence[Array], low: Array, high: Array) -> NDArray[np.uint16]:
+    """(refs, axes, rows) whole numbers."""
+    width = arrays[0].shape[1]
+    if low.shape != (width,) or high.shape != (width,):
+        raise ShapeError(f"bounds: expected {width} numbers each, got {low.shape} and {high.shape}")
+    span = high - low
+    scale = np.where(span > 0.0, STEPS / np.where(span > 0.0, span, 1.0), 0.0)
+    steps = np.empty((len(arrays), width, len(arrays[0])), np.uint16)
+    for i, array in enumerate(arrays):
+        share = np.rint((array - low) * scale)
+        if not ((share >= 0.0) & (share <= STEPS)).all():
+            raise ShapeError("expected finite numbers within the bounds")
+        steps[i] = share.T
+    return steps
+
+
+def _planes(steps: NDArray[np.uint16]) -> bytes:
+    deltas = steps.copy()
+    deltas[1:] -= steps[:-1]
+    deltas[0, :, 1:] -= steps[0, :, :-1]
+    flat = deltas.reshape(-1)
+    return (flat & np.uint16(255)).astype(np.uint8).tobytes() + (flat >> np.uint16(8)).astype(np.uint8).tobytes()
+
+
+def _packed(data: bytes) -> str:
+    squeezer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    return base64.b64encode(squeezer.compress(data) + squeezer.flush()).decode("ascii")
+
+
+def _unpacked(text: str, size: int) -> NDArray[np.uint8]:
+    """The bytes; never more than expected, whatever the text says."""
+    reader = zlib.decompressobj(-15)
+    try:
+        data = reader.decompress(base64.b64decode(text, validate=True), size + 1)
+    except (binascii.Error, zlib.error) as error:
+        raise ShapeError(f"data: {error}") from None
+    if len(data) != size:
+        raise ShapeError(f"data: expected {size} bytes, got {'more' if len(data) > size else len(data)}")
+    return np.frombuffer(data, np.uint8)
