@@ -32,7 +32,7 @@ export default [
       "no-script-url": "error",
       "no-self-assign": "error",
       "no-self-compare": "error",
-      "no-shadow": "error",
+      "no-shadow": ["error", { allow: ["_"] }],
       "no-throw-literal": "error",
       "no-unreachable": "error",
       "no-unused-expressions": "error",
