@@ -1,0 +1,208 @@
+"""Views: from where a scene is looked at, and how one stands so that all of it is in the picture."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive4d.geometry.meshes import Mesh
+from reactive4d.geometry.transforms import direction as unit
+from reactive4d.geometry.transforms import look_at, transform_points
+from reactive4d.model.frames import Frame
+
+__all__ = ["View", "bounds_of", "camera_of", "holding", "outermost", "view_of"]
+
+Array = NDArray[np.float64]
+Three = tuple[float, float, float]
+
+THREE_QUARTERS: Three = (0.45, -0.8, 0.42)
+FOV = 30.0
+ASPECT = 4.0 / 3.0
+MARGIN = 0.06
+TIMES = 9
+# Directions in which one looks for the outermost points: with so many, a ball loses less than 1/300 of its radius.
+_SPREAD = 128
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """From where a picture is taken.
+
+    Attributes:
+        position: where the eye is, metres.
+        target: what it looks at; one orbits about it.
+        up: which way is up.
+        fov: degrees from the lower to the upper edge of the picture.
+        near: what is nearer is not seen, metres.
+        far: what is farther is not seen, metres.
+
+    >>> View((0, -5, 0), (0, 0, 0)).to_json()["fov"]
+    30.0
+    """
+
+    position: Three
+    target: Three
+    up: Three = (0.0, 0.0, 1.0)
+    fov: float = FOV
+    near: float = 0.01
+    far: float = 1000.0
+
+    @property
+    def matrix(self) -> Array:
+        """(4, 4), from the eye's own axes to the world: it looks along its -z, +y is up."""
+        return look_at(self.position, self.target, self.up)
+
+    def to_json(self) -> dict[str, Any]:
+        """As it stands in a manifest."""
+        return {
+            "position": list(self.position),
+            "target": list(self.target),
+            "up": list(self.up),
+            "fov": self.fov,
+            "near": self.near,
+            "far": self.far,
+        }
+
+
+def holding(
+    points: NDArray[Any],
+    *,
+    direction: Three = THREE_QUARTERS,
+    up: Three = (0.0, 0.0, 1.0),
+    fov: float = FOV,
+    aspect: float = ASPECT,
+    margin: float = MARGIN,
+) -> View:
+    """The nearest view from a direction that has all points in the picture, in the middle of it.
+
+    Args:
+        points: (N, 3), metres; without any, a ball of radius 1 m is held.
+        direction: from what is looked at to the eye.
+        up: which way is up.
+        fov: degrees from the lower to the upper edge.
+        aspect: the picture's width by its height.
+        margin: share of the picture that stays empty at each edge.
+
+    >>> view = holding(np.array([[-1, 0, 0], [1, 0, 0], [0, 0, 1], [0, 0, -1]]), direction=(0, -1, 0), margin=0)
+    >>> [round(x, 2) for x in view.position]  # as far as half of the height is from the middle, by the half angle
+    [0.0, -3.73, 0.0]
+    """
+    found = points.astype(np.float64).reshape(-1, 3) if len(points) else _directions()
+    turn = look_at(direction, (0.0, 0.0, 0.0), up)[:3, :3]
+    x, y, z = (found @ turn).T
+    tan = math.tan(math.radians(fov) / 2.0) * (1.0 - 2.0 * margin)
+    across, over = tan * aspect, tan
+    # The eye (ex, ey, ez) sees a point if |x - ex| <= across (ez - z); of the four planes the outermost points decide.
+    right, left = float((x + across * z).max()), float((across * z - x).max())
+    above, below = float((y + over * z).max()), float((over * z - y).max())
+    size = max(float(np.ptp(found, axis=0).max()), 1e-6)
+    ez = max((right + left) / (2.0 * across), (above + below) / (2.0 * over), float(z.max()) + 0.05 * size)
+    eye = turn @ ((right - left) / 2.0, (above - below) / 2.0, ez)
+    far = ez - float(z.min())
+    distance = ez - (float(z.max()) + float(z.min())) / 2.0
+    return View(
+        position=_three(eye),
+        target=_three(eye - turn[:, 2] * distance),
+        up=unit(up),
+        fov=float(fov),
+        near=distance / 100.0,
+        far=10.0 * max(far, distance),
+    )
+
+
+def view_of(scene: Any, start: float, stop: float, *, aspect: float = ASPECT, **parameters: Any) -> View:
+    """The three-quarter view that holds a scene over a span of time; cameras and lights are not looked at.
+
+    Args:
+        scene: a scene, or what answers `at(t, **parameters)` with a frame.
+        start: seconds.
+        stop: seconds.
+        aspect: the picture's width by its height.
+        **parameters: a reader's.
+
+    >>> import reactive4d as r4
+    >>> ball = r4.Sphere(radius=0.1)
+    >>> _ = ball.translate(r4.vec(0, 0, r4.time))
+    >>> views = [view_of(r4.Scene(ball=ball), 0.0, stop) for stop in (0.0, 4.0)]
+    >>> [view.position[2] > 2.0 for view in views]  # the longer it rises, the farther one stands
+    [False, True]
+    """
+    times = [start] if start == stop else [start + (stop - start) * i / (TIMES - 1) for i in range(TIMES)]
+    return holding(outermost(scene.at(t, **parameters) for t in times), aspect=aspect)
+
+
+def bounds_of(frames: Iterable[Frame]) -> Array:
+    """(2, 3), the lowest and the highest coordinates of what is drawn; of nothing (0, 0, 0) twice.
+
+    >>> import reactive4d as r4
+    >>> bounds_of([r4.Scene(box=r4.Box(size=(1, 2, 3))).at(0.0)]).tolist()
+    [[-0.5, -1.0, -1.5], [0.5, 1.0, 1.5]]
+    """
+    points = outermost(frames)
+    return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
+
+
+def outermost(frames: Iterable[Frame]) -> Array:
+    """(N, 3), those points of all that is drawn that lie outermost in some direction, in world space."""
+    found: list[Array] = []
+    for frame in frames:
+        for node in frame.values():
+            if not node.visible:
+                continue
+            if node.kind == "label":
+                found.append(np.array([node.matrix[:3, 3]]))
+            points = getattr(node.drawn, "points", None)
+            if points is None or not len(points):
+                continue
+            if isinstance(node.drawn, Mesh):
+                points = points[np.unique(node.drawn.faces)]
+            linear = node.matrix[:3, :3]
+            # The outermost in a direction of the world are those in the direction that the matrix turns into it.
+            if len(points) > _SPREAD:
+                towards = _directions() @ linear
+                points = points[np.unique((points @ towards.T.astype(np.float32)).argmax(axis=0))]
+            found.append(transform_points(node.matrix, points.astype(np.float64)))
+    return np.concatenate(found) if found else np.zeros((0, 3))
+
+
+def camera_of(frame: Frame) -> View | None:
+    """What the first camera of a frame sees that is switched on; None where there is none.
+
+    >>> import reactive4d as r4
+    >>> camera_of(r4.Scene(camera=r4.Camera(position=(0, -5, 0))).at(0.0)).position
+    (0.0, -5.0, 0.0)
+    """
+    for node in frame.values():
+        if node.kind == "camera" and node.visible:
+            settings: Any = node.drawn
+            matrix = node.matrix
+            eye = matrix[:3, 3]
+            ahead = -matrix[:3, 2] / np.linalg.norm(matrix[:3, 2])
+            # One orbits about what it looks at, as far away as it was before the changes.
+            distance = float(np.linalg.norm(np.subtract(settings["target"], settings["eye"]))) or 1.0
+            return View(
+                position=_three(eye),
+                target=_three(eye + ahead * distance),
+                up=_three(matrix[:3, 1] / np.linalg.norm(matrix[:3, 1])),
+                fov=float(settings["fov"]),
+                near=max(float(settings["near"]), 1e-6),
+                far=float(settings["far"]),
+            )
+    return None
+
+
+def _three(vector: Any) -> Three:
+    x, y, z = [float(number) + 0.0 for number in vector]
+    return x, y, z
+
+
+def _directions() -> Array:
+    """(128, 3), directions that are spread evenly: a golden spiral, and the six axes."""
+    i = np.arange(_SPREAD - 6) + 0.5
+    z = 1.0 - 2.0 * i / len(i)
+    turn = i * np.pi * (1.0 + math.sqrt(5.0))
+    r = np.sqrt(1.0 - z * z)
+    return np.concatenate([np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1), np.eye(3), -np.eye(3)])
