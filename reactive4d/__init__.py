@@ -22,8 +22,10 @@ from reactive4d.intervals import FOREVER, Interval, IntervalSet
 from reactive4d.model.changes import Become, Change, Coloring, Deformation, Mapping, Note, Reshape, Transform
 from reactive4d.model.colorings import Color, Opacity, Shade, Texture
 from reactive4d.model.deformations import Bend, FreeForm, Ripple, Skew, Taper, Twist, Wave, XForm
+from reactive4d.model.drawings import Lines, Points
 from reactive4d.model.frames import Frame
 from reactive4d.model.kinds.aggregates import Combination, Group, Hull
+from reactive4d.model.kinds.arrows import Arrow
 from reactive4d.model.kinds.blobs import Blob
 from reactive4d.model.kinds.boxes import Box
 from reactive4d.model.kinds.cylinders import Cone, Cylinder, Quadric, Tube
@@ -39,7 +41,7 @@ from reactive4d.model.kinds.texts import Lettering
 from reactive4d.model.kinds.tori import Torus
 from reactive4d.model.kinds.views import Camera, Label, Light, Point
 from reactive4d.model.mappings import MapTexture
-from reactive4d.model.nodes import Lines, Node
+from reactive4d.model.nodes import Node
 from reactive4d.model.notes import Sent, Store
 from reactive4d.model.objects import Object
 from reactive4d.model.outlines import Outline, Outlines
@@ -64,6 +66,7 @@ from reactive4d.signals.sources import Parameter, Variable, time
 
 __all__ = [
     "FOREVER",
+    "Arrow",
     "Become",
     "Bend",
     "Blob",
@@ -130,6 +133,7 @@ __all__ = [
     "Places",
     "Plane",
     "Point",
+    "Points",
     "Polyhedron",
     "Prism",
     "Quadric",

@@ -68,6 +68,7 @@ class Object:
 
     script: ClassVar[str] = "object"
     is_group: ClassVar[bool] = False  # whether its members are drawn one by one
+    primitive: ClassVar[str] = "none"  # as what is drawn what has neither faces nor points: label, light or camera
     hull: ClassVar[str] = ""  # the setting that holds the control points, if the surface is made of some
     table: ClassVar[Table] = Table()
     settings: ClassVar[dict[str, Setting[Any]]] = {}

@@ -22,6 +22,7 @@ CLOSED: dict[str, Callable[[], r4.Object]] = {
     "cylinder": lambda: r4.Cylinder(1, 2, segments=12, stacks=4),
     "cone": lambda: r4.Cone(1, 2, segments=12, stacks=4),
     "frustum": lambda: r4.Cone(1, 2, top=0.5, segments=12, stacks=4),
+    "arrow": lambda: r4.Arrow(stop=(0.4, 0.3, 2), radius=0.1, segments=12),
     "tube": lambda: r4.Tube(1, 0.5, 2, segments=12, stacks=4),
     "torus": lambda: r4.Torus(1, 0.4, segments=12, sides=8),
     "quadric": lambda: r4.Quadric((1, 0.5, 1.2), 2, segments=12, stacks=6),

@@ -30,6 +30,8 @@ class Camera(Object):
     array([0., 2., 1.])
     """
 
+    primitive = "camera"
+
     eye = Vector((5.0, -5.0, 3.0), unit="m", doc="where it stands")
     target = Vector((0.0, 0.0, 0.0), unit="m", doc="what it looks at")
     up = Vector("z", is_direction=True, doc="which way is up")
@@ -56,6 +58,8 @@ class Light(Object):
     >>> lamp.position.at(0.0)
     array([0., 0., 3.])
     """
+
+    primitive = "light"
 
     light_type = Choice("directional", options=("ambient", "directional", "distant", "point", "spot"), doc="its type")
     intensity = Float(1.0, low=0.0, doc="how strong it is")
@@ -96,6 +100,8 @@ class Label(Object):
     >>> label.position.at(0.0)
     array([0., 1., 0.])
     """
+
+    primitive = "label"
 
     text = Text("", doc="what it says")
     anchor = Vector((0.0, 0.0, 0.0), unit="m", doc="where it stands")
