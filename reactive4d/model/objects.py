@@ -299,6 +299,16 @@ class Object:
         """The entries of its own list, in no particular order."""
         return [entry_of(x) for own in list(self._own.values()) for x in own.content]
 
+    def assigned(self) -> Iterator[Any]:
+        """All that was assigned to it and its changes, but for notes: constants, signals, objects, lists of them."""
+        yield from list(self._raw.values())
+        yield from [attribute.content for attribute in list(self._attributes.values())]
+        yield self.prototype_content
+        for entry in self.own_entries():
+            if entry.change.lane != "note":
+                yield from entry.change.contents
+                yield entry.change.gating
+
     def lane(self, lane: Lane) -> Signal[Items]:
         """All entries of one lane, its own and the inherited ones, as a signal."""
         return self.channel(f"changes.{lane}.all", lambda obj: stacks.entries(obj, lane))

@@ -4,12 +4,16 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, NoReturn, Self
 
-from reactive4d.engine import Formula, Source, engine
-from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.devices import device
+from reactive4d.engine import Source, engine
+from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
+from reactive4d.model.bundles import Bundle, Gathered, Root
 from reactive4d.model.formats import format_of
 from reactive4d.model.frames import Frame
-from reactive4d.model.nodes import Node, node_of
+from reactive4d.model.handles import Handle, handle
+from reactive4d.model.nodes import node_of
 from reactive4d.model.objects import Object
+from reactive4d.model.reaches import as_times, span
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 
@@ -47,6 +51,9 @@ class Scene(MutableMapping[str, Object]):
         self._named: tuple[Items, dict[Any, Object]] = ((), {})
         self.signals: dict[str, Any] = {}
         self.remembered: Any = None  # how the script read that it was read from, for who writes it
+        self._times: tuple[float, float] | None = None
+        self._handles: tuple[Handle, ...] = ()
+        self._fixed_by = ""  # who made it for others: then what it holds stays
         self._bundles: dict[tuple[Any, ...], Gathered] = {}
         self._root: Function[Root] = Function(self._rooted, name="scene.root")
         self._frame: Function[tuple[Root, Bundle]] = Function(self._shown, name="scene")
@@ -75,6 +82,7 @@ class Scene(MutableMapping[str, Object]):
     def __delitem__(self, name: str) -> None:
         with engine.transaction():
             self[name]
+            self._refuse_if_fixed(name)
             self._contents.set_content(tuple([item for item in self._contents.content if item[0] != name]))
 
     def __iter__(self) -> Iterator[str]:
@@ -107,6 +115,8 @@ class Scene(MutableMapping[str, Object]):
                 raise hint(ShapeError(f"{name!r} is not a name for an object"), "a string without a slash")
             if not isinstance(obj, Object):
                 raise ShapeError(f"{name}: expected an object, got {obj!r}")
+        if given:
+            self._refuse_if_fixed(*given)
         with engine.transaction():
             held = dict(self._contents.content)
             held.update(given)
@@ -114,6 +124,17 @@ class Scene(MutableMapping[str, Object]):
         for name, obj in given.items():
             if not obj.is_named:
                 obj.name = name
+
+    def fix(self, owner: str) -> None:
+        """From now on it holds what it holds: readers share it, and know its objects by their names."""
+        self._fixed_by = owner
+
+    def _refuse_if_fixed(self, *names: str) -> None:
+        if self._fixed_by:
+            error = Reactive4dError(
+                f"the objects of {self._fixed_by} are fixed: {', '.join(map(repr, names))} cannot come or go"
+            )
+            raise hint(error, "name all objects when the scene is made; what is there for a while only has `visible`")
 
     # -- files -----------------------------------------------------------------------------------------------------
 
@@ -161,7 +182,84 @@ class Scene(MutableMapping[str, Object]):
         """All nodes as one signal, for whoever watches the scene."""
         return self._frame
 
-    def _rooted(self) -> "Root":
+    @property
+    def times(self) -> tuple[float, float]:
+        """Over which time it is shown, seconds: from its first key to its last, else 0 to 10, unless it was set.
+
+        >>> import reactive4d as r4
+        >>> scene = r4.Scene(ball=r4.Sphere(radius=r4.keys({1: 1.0, 4: 2.0})))
+        >>> scene.times
+        (1.0, 4.0)
+        >>> scene.times = 0, 6
+        >>> scene.times
+        (0.0, 6.0)
+        """
+        return span(self) if self._times is None else self._times
+
+    @times.setter
+    def times(self, value: Any) -> None:
+        self._times = None if value is None else as_times(value, "times")
+
+    # -- readers ---------------------------------------------------------------------------------------------------
+
+    def handle(
+        self,
+        obj: Object,
+        /,
+        *,
+        x: Any = None,
+        y: Any = None,
+        z: Any = None,
+        xy: Any = None,
+        angle: Any = None,
+        label: str = "",
+    ) -> Handle:
+        """Let readers take hold of an object: what they do with it sets parameters.
+
+        Args:
+            obj: one of the scene's, or of a group in it.
+            x: the number that moves it along the world's x axis: the parameter's name, or itself.
+            y: the same along y.
+            z: the same along z.
+            xy: the two coordinates that move it in the plane of x and y.
+            angle: the number, in degrees, that turns it.
+            label: what is told of the handle; its name if nothing is given.
+
+        Raises:
+            ShapeError: the object is not in the scene, or these make neither a line, nor a plane, nor a circle.
+        """
+        made = handle(self, obj, x=x, y=y, z=z, xy=xy, angle=angle, label=label)
+        self._handles = (*[other for other in self._handles if other != made], made)
+        return made
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        """What readers can take hold of, in the order in which it was said."""
+        return self._handles
+
+    def show(self, **options: Any) -> Any:
+        """Put it before a reader: in a window, or in a cell of a notebook."""
+        return device("show")(self, **options)
+
+    def bake(self, path: str | Path, **options: Any) -> Any:
+        """Write one page that needs no server: figure, player, controls.
+
+        Args:
+            path: of the file, .html.
+            **options: `times`, seconds; a parameter's values by its name; `text`, `title`, `limit` and so on.
+        """
+        return device("bake")(self, path, **options)
+
+    def render(self, path: str | Path, **options: Any) -> Any:
+        """Draw a still picture.
+
+        Args:
+            path: of the file, .png.
+            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
+        """
+        return device("render")(self, path, **options)
+
+    def _rooted(self) -> Root:
         """The nodes of all objects, in bundles of bundles; what the last ones had in common with these is kept."""
         items: Items = self._contents.now()
         cells: list[Any] = [node_of(obj) for _, obj in items]
@@ -170,50 +268,16 @@ class Scene(MutableMapping[str, Object]):
             cells = [self._gathered(known, tuple(cells[i : i + FAN])) for i in range(0, len(cells), FAN)]
         return Root(items, cells[0] if cells else None)
 
-    def _gathered(self, known: "dict[tuple[Any, ...], Gathered]", cells: tuple[Any, ...]) -> "Gathered":
+    def _gathered(self, known: dict[tuple[Any, ...], Gathered], cells: tuple[Any, ...]) -> Gathered:
         cell = known.get(cells)
         if cell is None:
             cell = Gathered(lambda *nodes: Bundle(nodes), *cells, name="scene.nodes")
         self._bundles[cells] = cell
         return cell
 
-    def _shown(self) -> "tuple[Root, Bundle]":
+    def _shown(self) -> tuple[Root, Bundle]:
         root = self._root.now()
         return root, Bundle(()) if root.cell is None else root.cell.now()
 
     def __repr__(self) -> str:
         return f"Scene({', '.join([f'{name}={obj!r}' for name, obj in self._contents.content])})"
-
-
-class Bundle:
-    """Some nodes, or some bundles; it has no size of its own, since they are remembered elsewhere."""
-
-    __slots__ = ("nodes",)
-    nbytes = 0
-
-    def __init__(self, nodes: tuple[Any, ...]) -> None:
-        self.nodes = nodes
-
-    def flat(self) -> Iterator[Node]:
-        """All nodes below, in their order."""
-        for node in self.nodes:
-            if isinstance(node, Bundle):
-                yield from node.flat()
-            else:
-                yield node
-
-
-class Gathered(Signal[Bundle], Formula):
-    """A bundle as a signal."""
-
-    __slots__ = ()
-
-
-class Root:
-    """What a scene holds, and the signal of all its nodes."""
-
-    __slots__ = ("cell", "items")
-
-    def __init__(self, items: Items, cell: Gathered | None) -> None:
-        self.items = items
-        self.cell = cell

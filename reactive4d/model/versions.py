@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reactive4d.arrays import ARRAY
 from reactive4d.references import reference
 
 if TYPE_CHECKING:
@@ -35,9 +36,9 @@ _MORE: dict[str, tuple[str, ...]] = {
 class Versions(Mapping[str, str]):
     """The versions of one node's channels, by name: 32 hexadecimal digits each.
 
-    `drawn`, `visible`, `color`, `matrix`; of a mesh `points`, `topology` (faces, welds and all that belongs to points or
-    faces but their colours) and `paints`; of lines `points` and `topology`; of points `points`; of labels, lights and
-    cameras `settings`.
+    `drawn`, `visible`, `color`, `matrix`; of a mesh `points`, `topology` (faces, welds and all else that belongs to
+    points or faces) and `paints`, their colours; of lines `points` and `topology`; of points `points`; of labels,
+    lights and cameras `settings`.
 
     >>> import reactive4d as r4
     >>> ball = r4.Sphere()
@@ -59,7 +60,7 @@ class Versions(Mapping[str, str]):
         if known is None:
             if channel not in _EVERY and channel not in _MORE[self._node.primitive]:
                 raise KeyError(channel)
-            known = self._known[channel] = version(_CONTENT[channel](self._node))
+            known = self._known[channel] = version(_content(self._node, channel))
         return known
 
     def __iter__(self) -> Iterator[str]:
@@ -72,23 +73,22 @@ class Versions(Mapping[str, str]):
         return f"Versions({dict(self)!r})"
 
 
-def _topology(node: "Node") -> Any:
+def _content(node: "Node", channel: str) -> Any:
+    """What a channel of a node says."""
     drawn = node.drawn
+    if channel in ("visible", "color", "matrix"):
+        return getattr(node, channel)
+    if channel == "drawn":
+        return node.primitive
+    if channel == "settings":
+        return tuple(sorted(drawn.items()))
+    if channel == "points":
+        return drawn.points
     if node.primitive == "lines":
         return drawn.lines
+    if channel == "paints":
+        return drawn.attributes.get("colors")
     return (drawn.faces, *[(name, array) for name, array in sorted(drawn.attributes.items()) if name != "colors"])
-
-
-_CONTENT: dict[str, Any] = {
-    "drawn": lambda node: node.primitive,
-    "visible": lambda node: node.visible,
-    "color": lambda node: node.color,
-    "matrix": lambda node: node.matrix,
-    "points": lambda node: node.drawn.points,
-    "topology": _topology,
-    "paints": lambda node: node.drawn.attributes.get("colors"),
-    "settings": lambda node: tuple(sorted(node.drawn.items())),
-}
 
 
 def version(content: Any) -> str:
@@ -97,12 +97,12 @@ def version(content: Any) -> str:
     >>> version(True) == version(True), version(True) == version(1), version((1, 2.0)) == version((1, 2))
     (True, False, False)
     """
-    return reference(content) if isinstance(content, np.ndarray) else _of_text(written(content))
+    return reference(content) if isinstance(content, ARRAY) else _of_text(written(content))
 
 
 def written(content: Any) -> str:
     """A content as a text that no other content has; of what cannot be told by a text, another one every time."""
-    if isinstance(content, np.ndarray):
+    if isinstance(content, ARRAY):
         return f"array {reference(content)}"
     if isinstance(content, tuple):
         return f"({','.join([written(part) for part in content])})"  # pyright: ignore[reportUnknownVariableType]

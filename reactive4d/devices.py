@@ -1,0 +1,87 @@
+"""Devices: what puts a scene before a reader: writes a page, draws a picture, opens a window.
+
+A device is a function whose first argument is what it is to show. Those that come along lie in packages above the core,
+which imports each of them when it is first wanted. Another one can be put in its place while the program runs, and the
+scene does not notice.
+"""
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, TypeAlias
+
+from reactive4d.errors import Reactive4dError, hint, unknown
+
+__all__ = ["Device", "device", "exchange", "names"]
+
+Device: TypeAlias = Callable[..., Any]
+
+_devices: dict[str, Device | str] = {
+    "bake": "reactive4d_widgets.baking:bake",  # one page that needs no server
+    "render": "reactive4d_widgets.stills:render",  # a still picture
+    "show": "reactive4d_widgets.showing:show",  # a window, or a cell of a notebook
+}
+
+
+def names() -> tuple[str, ...]:
+    """The names of all devices.
+
+    >>> names()
+    ('bake', 'render', 'show')
+    """
+    return tuple(sorted(_devices))
+
+
+def device(name: str) -> Device:
+    """The device of that name.
+
+    Raises:
+        UnknownNameError: there is none.
+        Reactive4dError: there is one, but it cannot be imported here.
+
+    >>> device("rendre")
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.UnknownNameError: unknown device 'rendre'
+    hint: did you mean 'render'?
+    """
+    found = _devices.get(name)
+    if found is None:
+        raise unknown(name, _devices, what="device")
+    if isinstance(found, str):
+        module, _, function = found.partition(":")
+        try:
+            found = getattr(import_module(module), function)
+        except (ImportError, AttributeError) as error:
+            refusal = Reactive4dError(f"the device {name!r} cannot be used here: {error}")
+            raise hint(
+                refusal, f"it is {function} of {module}, which comes with reactive4d and needs what it needs"
+            ) from error
+    assert callable(found)
+    return found
+
+
+def exchange(name: str, other: Device | str) -> Device | str:
+    """Put another device in the place of one, or a new one where there is none; the one before is returned.
+
+    Args:
+        name: how it is called: `scene.render(…)` calls "render".
+        other: a function, or where to import it from when it is wanted: "package.module:function".
+
+    Returns:
+        What was there before, as it can be given back; of a new one itself.
+
+    Raises:
+        TypeError: it is neither.
+
+    >>> import reactive4d as r4
+    >>> before = exchange("render", lambda scene, path, **options: f"{len(scene)} objects in {path}")
+    >>> r4.Scene(ball=r4.Sphere()).render("ball.png")
+    '1 objects in ball.png'
+    >>> _ = exchange("render", before)
+    """
+    if not callable(other) and not (isinstance(other, str) and other.count(":") == 1):  # pyright: ignore[reportUnnecessaryIsInstance]
+        error = TypeError(f"device {name!r}: expected a function, got {other!r}")
+        raise hint(error, "or where to import it from, as in 'package.module:function'")
+    before = _devices.get(name, other)
+    _devices[name] = other
+    return before
