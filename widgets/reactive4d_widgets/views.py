@@ -12,8 +12,9 @@ from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.transforms import direction as unit
 from reactive4d.geometry.transforms import look_at, transform_points
 from reactive4d.model.frames import Frame
+from reactive4d.model.nodes import Node
 
-__all__ = ["View", "bounds_of", "camera_of", "holding", "outermost", "view_of"]
+__all__ = ["View", "bounds_of", "camera_of", "camera_view", "holding", "outermost", "view_of"]
 
 Array = NDArray[np.float64]
 Three = tuple[float, float, float]
@@ -150,15 +151,12 @@ def outermost(frames: Iterable[Frame]) -> Array:
     found: list[Array] = []
     for frame in frames:
         for node in frame.values():
-            if not node.visible:
-                continue
-            if node.kind == "label":
+            if node.primitive == "label":
                 found.append(np.array([node.matrix[:3, 3]]))
-            points = getattr(node.drawn, "points", None)
-            if points is None or not len(points):
+            if node.primitive not in ("mesh", "lines", "points"):
                 continue
-            if isinstance(node.drawn, Mesh):
-                points = points[np.unique(node.drawn.faces)]
+            drawn: Any = node.drawn
+            points = drawn.points[np.unique(drawn.faces)] if isinstance(drawn, Mesh) else drawn.points
             linear = node.matrix[:3, :3]
             # The outermost in a direction of the world are those in the direction that the matrix turns into it.
             if len(points) > _SPREAD:
@@ -175,23 +173,28 @@ def camera_of(frame: Frame) -> View | None:
     >>> camera_of(r4.Scene(camera=r4.Camera(position=(0, -5, 0))).at(0.0)).position
     (0.0, -5.0, 0.0)
     """
-    for node in frame.values():
-        if node.kind == "camera" and node.visible:
-            settings: Any = node.drawn
-            matrix = node.matrix
-            eye = matrix[:3, 3]
-            ahead = -matrix[:3, 2] / np.linalg.norm(matrix[:3, 2])
-            # One orbits about what it looks at, as far away as it was before the changes.
-            distance = float(np.linalg.norm(np.subtract(settings["target"], settings["eye"]))) or 1.0
-            return View(
-                position=_three(eye),
-                target=_three(eye + ahead * distance),
-                up=_three(matrix[:3, 1] / np.linalg.norm(matrix[:3, 1])),
-                fov=float(settings["fov"]),
-                near=max(float(settings["near"]), 1e-6),
-                far=float(settings["far"]),
-            )
-    return None
+    return next((camera_view(node) for node in frame.values() if node.primitive == "camera"), None)
+
+
+def camera_view(node: Node) -> View:
+    """What a camera sees, wherever its changes took it.
+
+    Args:
+        node: one whose `primitive` is "camera".
+    """
+    settings: Any = node.drawn
+    eye, back, up = node.matrix[:3, 3], node.matrix[:3, 2], node.matrix[:3, 1]
+    back = back / np.linalg.norm(back)
+    # One orbits about what it looks at, as far away as it was before the changes.
+    distance = float(np.linalg.norm(np.subtract(settings["target"], settings["eye"]))) or 1.0
+    return View(
+        position=_three(eye),
+        target=_three(eye - back * distance),
+        up=_three(up / np.linalg.norm(up)),
+        fov=float(settings["fov"]),
+        near=max(float(settings["near"]), 1e-6),
+        far=float(settings["far"]),
+    )
 
 
 def _three(vector: Any) -> Three:

@@ -1,0 +1,173 @@
+"""Pictures: what VTK draws of a composition, without a window. No other module makes VTK's types."""
+
+import os
+import sys
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+from reactive4d.errors import EvaluationError, hint
+from reactive4d_widgets.compositions import Composition, Strokes, Surface
+from reactive4d_widgets.views import View
+
+__all__ = ["picture"]
+
+Pixels = NDArray[np.uint8]
+PEELS = 12  # layers of what is seen through, from the front to the back
+
+
+def picture(
+    composition: Composition,
+    view: View,
+    *,
+    size: tuple[int, int],
+    paper: tuple[float, float, float],
+    shader: str | None,
+    stroke: float = 2.0,
+    dot: float = 8.0,
+    crease: float = 0.0,
+) -> Pixels:
+    """Draw a composition, but for its labels.
+
+    Args:
+        composition: what is drawn.
+        view: from where.
+        size: width and height, pixels.
+        paper: the colour behind everything, sRGB from 0 to 1.
+        shader: how surfaces are lit; None shows their plain colours.
+        stroke: how wide lines are, pixels.
+        dot: how wide points are, pixels.
+        crease: how wide the edges of surfaces are, pixels; 0 leaves them out.
+
+    Returns:
+        (height, width, 3), sRGB.
+
+    Raises:
+        EvaluationError: there is no OpenGL on this machine.
+    """
+    with _without_display():
+        plotter: Any = pv.Plotter(off_screen=True, window_size=list(size), lighting="none", theme=pv.themes.Theme())
+    try:
+        if not plotter.render_window.SupportsOpenGL():
+            raise hint(
+                EvaluationError("pictures need OpenGL 3.2, and there is none here"),
+                "on Debian: apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri",
+            )
+        plotter.background_color = paper
+        plotter.add_light(pv.Light(light_type="headlight"))  # a lit surface is one on which some lamp of VTK's shines
+        for actor in _actors(composition, shader, view=view, stroke=stroke, dot=dot, crease=crease):
+            plotter.add_actor(actor, reset_camera=False, render=False)
+        # Peeling wants one sample for a pixel; what is smooth is made so by drawing larger than wanted.
+        plotter.render_window.SetMultiSamples(0)
+        plotter.render_window.AlphaBitPlanesOn()
+        if composition.clear is not None:
+            plotter.renderer.SetUseDepthPeeling(True)
+            plotter.renderer.SetMaximumNumberOfPeels(PEELS)
+            plotter.renderer.SetOcclusionRatio(0.0)
+        camera = plotter.camera
+        camera.position, camera.focal_point, camera.up = view.position, view.target, view.up
+        camera.view_angle = view.fov
+        camera.clipping_range = _depths(composition, view)
+        return np.array(plotter.screenshot(return_img=True)[..., :3])
+    finally:
+        plotter.close()
+
+
+@contextmanager
+def _without_display() -> Generator[None]:
+    """On Linux VTK looks for an X server first, and complains where there is none; here it is not asked to."""
+    name = "VTK_DEFAULT_OPENGL_WINDOW"
+    if not sys.platform.startswith("linux") or os.environ.get("DISPLAY") or name in os.environ:
+        yield
+        return
+    os.environ[name] = "vtkEGLRenderWindow"
+    try:
+        yield
+    finally:
+        del os.environ[name]
+
+
+def _actors(
+    composition: Composition, shader: str | None, *, view: View, stroke: float, dot: float, crease: float
+) -> Iterator[Any]:
+    if composition.opaque is not None:
+        yield _surface(composition.opaque, shader)
+    if composition.clear is not None:
+        actor = _surface(composition.clear, shader)
+        actor.ForceTranslucentOn()
+        yield actor
+    if composition.creases is not None and crease:
+        actor = _strokes(_nearer(composition.creases, view))
+        actor.GetProperty().SetLineWidth(crease)
+        yield actor
+    if composition.lines is not None:
+        actor = _strokes(composition.lines)
+        actor.GetProperty().SetLineWidth(stroke)
+        yield actor
+    if composition.dots is not None:
+        actor = _strokes(composition.dots)
+        actor.GetProperty().SetPointSize(dot)
+        actor.GetProperty().RenderPointsAsSpheresOn()
+        yield actor
+
+
+def _actor(data: Any, colors: Pixels) -> Any:
+    data.point_data["colors"] = colors
+    data.point_data.active_scalars_name = "colors"
+    mapper: Any = vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    mapper.SetColorModeToDirectScalars()
+    actor: Any = vtkActor()
+    actor.SetMapper(mapper)
+    return actor
+
+
+def _surface(surface: Surface, shader: str | None) -> Any:
+    data: Any = pv.PolyData()
+    data.points, data.regular_faces = surface.points, surface.faces
+    data.point_data["normals"] = surface.normals
+    data.point_data.active_normals_name = "normals"
+    actor = _actor(data, surface.colors)
+    if shader is None:
+        actor.GetProperty().LightingOff()
+    else:
+        # With it VTK hands the shader where a pixel is; of what it makes of that itself nothing remains.
+        actor.GetProperty().SetInterpolationToPBR()
+        actor.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, shader, False)
+    return actor
+
+
+def _strokes(strokes: Strokes) -> Any:
+    data: Any = pv.PolyData()
+    data.points = strokes.points
+    count, width = strokes.lines.shape
+    cells = np.concatenate([np.full((count, 1), width), strokes.lines], axis=1).ravel()
+    if width == 1:
+        data.verts = cells
+    else:
+        data.lines = cells
+    actor = _actor(data, strokes.colors)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def _depths(composition: Composition, view: View) -> tuple[float, float]:
+    """Between which distances there is something; the narrower they are, the better near and far can be told apart."""
+    parts = [composition.opaque, composition.clear, composition.lines, composition.dots]
+    ahead = -view.matrix[:3, 2]
+    depths = [(part.points - np.asarray(view.position)) @ ahead for part in parts if part is not None]
+    nearest = min([float(depth.min()) for depth in depths], default=view.near)
+    farthest = max([float(depth.max()) for depth in depths], default=view.far)
+    near = max(view.near, 0.9 * nearest, 1e-4 * farthest)
+    return near, max(min(view.far, 1.1 * farthest), 2.0 * near)
+
+
+def _nearer(strokes: Strokes, view: View) -> Strokes:
+    """A little towards the eye, so that surfaces do not hide their own edges."""
+    ways = np.asarray(view.position, np.float64) - strokes.points
+    return Strokes((strokes.points + 0.002 * ways).astype(np.float32), strokes.colors, strokes.lines)
