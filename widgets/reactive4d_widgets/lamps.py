@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.model.nodes import Node
-from reactive4d.signals.colors import srgb_to_linear
+from reactive4d.signals.colors import color, srgb_to_linear
 from reactive4d_widgets.views import View
 
 __all__ = ["Lamp", "Sky", "light_of"]
@@ -54,13 +54,16 @@ class Lamp:
     reach: float | None = None
 
 
-STUDIO_SKY = ((0.55, 0.56, 0.58), (0.34, 0.32, 0.30))
-STUDIO_KEY = ((0.72, 0.70, 0.66), (0.45, 0.60, -0.75))
-FAINT = 0.4  # of the studio's sky that remains beside the lights of a scene: what they do not reach is not black
+# A studio that goes round with the eye, as if one turned the things on a table: to the right, upwards, to the eye.
+KEY, KEY_INTENSITY = (-0.62, 1.0, 0.62), 0.62
+FILL, FILL_INTENSITY = (0.9, 0.25, 0.7), 0.14
+SKY = {"intensity": 0.44, "above": "#ffffff", "below": "#8f8a84"}
+# What the lights of a scene do not reach is not black.
+FAINT_SKY = {"intensity": 0.16, "above": "#ffffff", "below": "#9a968f"}
 
 
 def light_of(nodes: Iterable[Node], view: View) -> tuple[Sky, tuple[Lamp, ...]]:
-    """The light in a frame: its visible lights and a faint sky; a studio's, where there is none.
+    """The light in a frame: its visible lights and, unless one of them is ambient, a faint sky; or a studio's.
 
     Args:
         nodes: of a frame.
@@ -73,35 +76,45 @@ def light_of(nodes: Iterable[Node], view: View) -> tuple[Sky, tuple[Lamp, ...]]:
     [1.0, 0.0, 0.0]
     """
     lights = [node for node in nodes if node.primitive == "light" and node.visible]
-    sky = np.array(STUDIO_SKY)
     if not lights:
-        color, towards = STUDIO_KEY
-        key = Lamp(np.array(color), _unit(np.array(towards)))
-        return Sky(sky[0], sky[1], np.array((0.0, 0.0, 1.0))), (key,)
+        return _studio(view)
     around = np.zeros(3)
     is_ambient = False
     lamps: list[Lamp] = []
     for node in lights:
         settings: Any = node.drawn
-        color = srgb_to_linear(node.color[:3]) * node.color[3] * float(settings["intensity"])
+        strength = srgb_to_linear(node.color[:3]) * float(settings["intensity"])
         if settings["light_type"] == "ambient":
             is_ambient = True
-            around = around + color
+            around = around + strength
         else:
-            lamps.append(_lamp(node, color))
-    if not is_ambient:
-        return Sky(sky[0] * FAINT, sky[1] * FAINT, np.array((0.0, 0.0, 1.0))), tuple(lamps)
-    return Sky(around, around, np.array((0.0, 0.0, 1.0))), tuple(lamps)
+            lamps.append(_lamp(node, strength))
+    up = np.array((0.0, 0.0, 1.0))
+    return Sky(around, around, up) if is_ambient else _sky(FAINT_SKY, up), tuple(lamps)
 
 
-def _lamp(node: Node, color: Array) -> Lamp:
+def _studio(view: View) -> tuple[Sky, tuple[Lamp, ...]]:
+    right, up = view.matrix[:3, 0], _unit(np.array(view.up))
+    front = np.cross(right, up)
+    lamps: list[Lamp] = []
+    for (x, y, z), intensity in ((KEY, KEY_INTENSITY), (FILL, FILL_INTENSITY)):
+        lamps.append(Lamp(np.full(3, intensity), -_unit(x * right + y * up + z * front)))
+    return _sky(SKY, up), tuple(lamps)
+
+
+def _sky(sky: Any, up: Array) -> Sky:
+    above, below = [srgb_to_linear(color(sky[side])[:3]) * sky["intensity"] for side in ("above", "below")]
+    return Sky(above, below, up)
+
+
+def _lamp(node: Node, strength: Array) -> Lamp:
     settings: Any = node.drawn
     towards = _unit(-node.matrix[:3, 2])
     if settings["light_type"] in ("directional", "distant"):
-        return Lamp(color, towards)
+        return Lamp(strength, towards)
     reach = settings["reach"]
     return Lamp(
-        color,
+        strength,
         towards,
         position=node.matrix[:3, 3],
         angle=math.radians(float(settings["angle"])) / 2.0 if settings["light_type"] == "spot" else None,

@@ -1,9 +1,6 @@
 """Pictures: what VTK draws of a composition, without a window. No other module makes VTK's types."""
 
-import os
-import sys
-from collections.abc import Generator, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,8 +8,8 @@ import pyvista as pv
 from numpy.typing import NDArray
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from reactive4d.errors import EvaluationError, hint
 from reactive4d_widgets.compositions import Composition, Strokes, Surface
+from reactive4d_widgets.displays import drawable
 from reactive4d_widgets.views import View
 
 __all__ = ["picture"]
@@ -50,14 +47,9 @@ def picture(
     Raises:
         EvaluationError: there is no OpenGL on this machine.
     """
-    with _without_display():
+    with drawable():
         plotter: Any = pv.Plotter(off_screen=True, window_size=list(size), lighting="none", theme=pv.themes.Theme())
     try:
-        if not plotter.render_window.SupportsOpenGL():
-            raise hint(
-                EvaluationError("pictures need OpenGL 3.2, and there is none here"),
-                "on Debian: apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri",
-            )
         plotter.background_color = paper
         plotter.add_light(pv.Light(light_type="headlight"))  # a lit surface is one on which some lamp of VTK's shines
         for actor in _actors(composition, shader, view=view, stroke=stroke, dot=dot, crease=crease):
@@ -76,20 +68,6 @@ def picture(
         return np.array(plotter.screenshot(return_img=True)[..., :3])
     finally:
         plotter.close()
-
-
-@contextmanager
-def _without_display() -> Generator[None]:
-    """On Linux VTK looks for an X server first, and complains where there is none; here it is not asked to."""
-    name = "VTK_DEFAULT_OPENGL_WINDOW"
-    if not sys.platform.startswith("linux") or os.environ.get("DISPLAY") or name in os.environ:
-        yield
-        return
-    os.environ[name] = "vtkEGLRenderWindow"
-    try:
-        yield
-    finally:
-        del os.environ[name]
 
 
 def _actors(

@@ -1,8 +1,8 @@
 """Shaders: the text of what a graphics card does for each pixel of a lit surface.
 
-The formulas are those of the browser's renderer (three.js, MeshStandardMaterial): light is added up in linear numbers,
-scattered by Lambert's law and mirrored by the microfacets of Cook and Torrance (GGX, Smith's masking, Schlick's Fresnel
-term), and written as sRGB without any mapping of tones.
+The formulas are those of the browser's viewer (three.js, MeshPhongMaterial): light is added up in linear numbers,
+scattered by Lambert's law and mirrored by Blinn's and Phong's with Schlick's Fresnel term; a rim darkens where one looks
+along the surface; the sum is written as sRGB without any mapping of tones.
 """
 
 import math
@@ -17,7 +17,9 @@ __all__ = ["shading"]
 
 Array = NDArray[np.float64]
 
-ROUGHNESS = 0.7
+SPECULAR = 0.0080  # of #161616, linear
+SHININESS = 24.0
+RIM = 0.2
 PENUMBRA = 0.15
 
 _START = """//VTK::Light::Impl
@@ -26,7 +28,6 @@ _START = """//VTK::Light::Impl
                      vec3(lessThanEqual(r4Srgb, vec3(0.04045))));
   vec3 r4Normal = normalize(normalVCVSOutput);
   vec3 r4Back = normalize(-vertexVC.xyz);
-  float r4Facing = clamp(dot(r4Normal, r4Back), 1e-5, 1.0);
 """
 _SKY = """  vec3 r4Light = r4Color * mix({below}, {above}, 0.5 + 0.5 * dot(r4Normal, {up}));
 """
@@ -34,13 +35,10 @@ _LAMP = """  {{
     {way}
     float r4Cosine = clamp(dot(r4Normal, r4Way), 0.0, 1.0);
     vec3 r4Half = normalize(r4Way + r4Back);
-    float r4Sharp = clamp(dot(r4Normal, r4Half), 0.0, 1.0);
     float r4Grazing = clamp(dot(r4Back, r4Half), 0.0, 1.0);
-    float r4Fresnel = 0.04 + 0.96 * exp2((-5.55473 * r4Grazing - 6.98316) * r4Grazing);
-    float r4Spread = r4Sharp * r4Sharp * ({alpha2} - 1.0) + 1.0;
-    float r4Masked = r4Cosine * sqrt({alpha2} + (1.0 - {alpha2}) * r4Facing * r4Facing)
-                   + r4Facing * sqrt({alpha2} + (1.0 - {alpha2}) * r4Cosine * r4Cosine);
-    float r4Mirrored = r4Fresnel * 0.5 / max(r4Masked, 1e-6) * {alpha2} / (r4Spread * r4Spread);
+    float r4Fresnel = exp2((-5.55473 * r4Grazing - 6.98316) * r4Grazing);
+    float r4Mirrored = mix({specular}, 1.0, r4Fresnel) * 0.25 * ({shininess} * 0.5 + 1.0)
+                     * pow(clamp(dot(r4Normal, r4Half), 0.0, 1.0), {shininess});
     r4Light += r4Strength * {color} * r4Cosine * (r4Color + r4Mirrored);
   }}
 """
@@ -54,7 +52,8 @@ _REACH = """
     r4Strength *= pow(clamp(1.0 - pow(r4Distance / {reach}, 4.0), 0.0, 1.0), 2.0);"""
 _CONE = """
     r4Strength *= smoothstep({outer}, {inner}, dot(r4Way, {way}));"""
-_STOP = """  r4Light = clamp(r4Light, 0.0, 1.0);
+_STOP = """  float r4Edge = 1.0 - clamp(abs(dot(r4Normal, r4Back)), 0.0, 1.0);
+  r4Light = clamp(r4Light * (1.0 - {rim} * r4Edge * r4Edge * r4Edge), 0.0, 1.0);
   gl_FragData[0] = vec4(mix(1.055 * pow(max(r4Light, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, 12.92 * r4Light,
                             vec3(lessThanEqual(r4Light, vec3(0.0031308)))), opacity);
 """
@@ -74,7 +73,7 @@ def shading(sky: Sky, lamps: Iterable[Lamp], to_eye: Array) -> str:
     1
     """
     linear, offset = to_eye[:3, :3], to_eye[:3, 3]
-    alpha = ROUGHNESS * ROUGHNESS
+    mirror = {"specular": _float(SPECULAR), "shininess": _float(SHININESS)}
     parts = [_START, _SKY.format(below=_vec(sky.below), above=_vec(sky.above), up=_vec(linear @ sky.up))]
     for lamp in lamps:
         way = _vec(linear @ -lamp.towards)
@@ -87,8 +86,8 @@ def shading(sky: Sky, lamps: Iterable[Lamp], to_eye: Array) -> str:
             if lamp.angle is not None:
                 outer, inner = math.cos(lamp.angle), math.cos(lamp.angle * (1.0 - PENUMBRA))
                 found += _CONE.format(outer=_float(outer), inner=_float(max(inner, outer + 1e-6)), way=way)
-        parts.append(_LAMP.format(way=found, color=_vec(lamp.color), alpha2=_float(alpha * alpha)))
-    return "".join([*parts, _STOP])
+        parts.append(_LAMP.format(way=found, color=_vec(lamp.color), **mirror))
+    return "".join([*parts, _STOP.format(rim=_float(RIM))])
 
 
 def _vec(vector: Array) -> str:
