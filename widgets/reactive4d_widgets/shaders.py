@@ -1,8 +1,8 @@
 """Shaders: the text of what a graphics card does for each pixel of a lit surface.
 
 The formulas are those of the browser's viewer (three.js, MeshPhongMaterial): light is added up in linear numbers,
-scattered by Lambert's law and mirrored by Blinn's and Phong's with Schlick's Fresnel term; a rim darkens where one looks
-along the surface; the sum is written as sRGB without any mapping of tones.
+scattered by Lambert's law and mirrored by Blinn's and Phong's with Schlick's Fresnel term; a rim darkens where one
+looks along the surface; the sum is written as sRGB without any mapping of tones.
 """
 
 import math
