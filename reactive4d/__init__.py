@@ -18,6 +18,7 @@ from reactive4d.errors import (
 )
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.rays import Hits
+from reactive4d.illustrations import Bookmark, Illustration
 from reactive4d.intervals import FOREVER, Interval, IntervalSet
 from reactive4d.model.changes import Become, Change, Coloring, Deformation, Mapping, Note, Reshape, Transform
 from reactive4d.model.colorings import Color, Opacity, Shade, Texture
@@ -70,6 +71,7 @@ __all__ = [
     "Become",
     "Bend",
     "Blob",
+    "Bookmark",
     "Box",
     "Camera",
     "Change",
@@ -97,6 +99,7 @@ __all__ = [
     "Helix",
     "Hits",
     "Hull",
+    "Illustration",
     "Integer",
     "Interval",
     "IntervalSet",

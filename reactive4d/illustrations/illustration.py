@@ -1,0 +1,269 @@
+"""Illustrations: models whose parameters readers drive. A class has one model and one memo, a reader is a point in it."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+
+import param
+
+from reactive4d.arrays import same
+from reactive4d.devices import device
+from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
+from reactive4d.illustrations.bookmarks import Bookmark, Look
+from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_signal, refuse_value
+from reactive4d.illustrations.controls import Control, control_of
+from reactive4d.illustrations.kinds import admitted, kind_of
+from reactive4d.illustrations.settling import settle
+from reactive4d.model.frames import Frame
+from reactive4d.model.reaches import as_times
+from reactive4d.model.scenes import Scene
+from reactive4d.signals.facade import Signal
+
+__all__ = ["Illustration", "Signals"]
+
+
+class Signals(Mapping[str, Signal[Any]]):
+    """The parameters of an illustration as signals: `self.signals.length`.
+
+    >>> import param
+    >>> import reactive4d as r4
+    >>> class Pole(r4.Illustration):
+    ...     height = param.Number(1.0)
+    ...
+    ...     def build(self):
+    ...         return r4.Scene(pole=r4.Cylinder(0.1, self.signals.height))
+    >>> list(Pole().signals), Pole().signals.height.at(0.0, height=2.0)
+    (['height'], 2.0)
+    """
+
+    __slots__ = ("_shared",)
+
+    def __init__(self, shared: Shared) -> None:
+        object.__setattr__(self, "_shared", shared)
+
+    def __getattr__(self, name: str) -> Signal[Any]:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return self._shared.axis(name)
+
+    def __setattr__(self, name: str, value: Any) -> NoReturn:
+        raise hint(AttributeError(f"signals.{name} cannot be set"), f"a reader sets the parameter: fig.{name} = value")
+
+    def __getitem__(self, name: str) -> Signal[Any]:
+        try:
+            return self._shared.axis(name)
+        except AttributeError as error:
+            raise hint(KeyError(name), error.__notes__[0].removeprefix("hint: ")) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._shared.axes)
+
+    def __len__(self) -> int:
+        return len(self._shared.axes)
+
+    def __dir__(self) -> list[str]:
+        return [*self]
+
+    def __repr__(self) -> str:
+        return f"<signals of {self._shared.owner.__name__}: {', '.join(self)}>"
+
+
+class Illustration(param.Parameterized):
+    """A model whose parameters readers drive; `build` describes it once for all of them.
+
+    Parameters are declared with param: Number, Integer, Magnitude, Boolean, Selector, Color, Range and XYCoordinates.
+    In `build` they are signals, `self.signals.length`; a reader sets their values, `pendulum.length = 1.5`. All readers
+    of a class share its model and its memo: what one has asked for costs the next one nothing.
+
+    A class may say over which `times` it is shown, (start, stop) in seconds; else this follows from its keys.
+
+    >>> import numpy as np
+    >>> import param
+    >>> import reactive4d as r4
+    >>> class Pendulum(r4.Illustration):
+    ...     length = param.Number(1.0, bounds=(0.2, 2.0), doc="length of the rod [m]")
+    ...
+    ...     def build(self):
+    ...         length = self.signals.length
+    ...         bob = r4.Sphere(0.1, color="crimson")
+    ...         bob.translate(r4.vec(0, 0, -length))
+    ...         bob.rotate(20 * np.cos(np.sqrt(9.81 / length) * r4.time), axis="y")
+    ...         return r4.Scene(bob=bob)
+    >>> short, long = Pendulum(length=0.5), Pendulum(length=2.0)
+    >>> short.at(0.0)["bob"].matrix[:3, 3].round(3).tolist(), long.at(0.0)["bob"].matrix[:3, 3].round(3).tolist()
+    ([-0.171, 0.0, -0.47], [-0.684, 0.0, -1.879])
+    >>> short.scene is long.scene
+    True
+    >>> long.length = 9
+    Traceback (most recent call last):
+    ...
+    ValueError: Number parameter 'Pendulum.length' must be at most 2.0, not 9.
+    """
+
+    _shared: ClassVar[Shared]
+    _time: float | None = None
+    _camera: Look | None = None
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        for name, value in vars(cls).items():
+            if isinstance(value, param.Parameter) and kind_of(value) is not None:
+                _refuse_taken(cls, name)
+        own = vars(cls).get("times")
+        if own is not None and not isinstance(own, property | param.Parameter):
+            type.__setattr__(cls, "times", as_times(own, f"{cls.__name__}.times"))
+        type.__setattr__(cls, "_shared", Shared(cls))
+
+    def __getattribute__(self, name: str) -> Any:
+        if name[:1] != "_" and is_out_of_reach(self):
+            refuse_value(self, name)
+        return super().__getattribute__(name)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if isinstance(value, Signal):
+            refuse_signal(self, name, value)
+        refuse_keeping(self, name)
+        super().__setattr__(name, value)
+
+    # -- the model -------------------------------------------------------------------------------------------------
+
+    def build(self) -> Scene:
+        """Describe the model, once for all readers of the class; to be written by whoever makes an illustration.
+
+        Raises:
+            EvaluationError: a parameter's value is read, which is one reader's; `self.signals` has the parameters.
+        """
+        error = Reactive4dError(f"{type(self).__name__} has no build()")
+        raise hint(error, "def build(self): … return r4.Scene(…)")
+
+    @property
+    def signals(self) -> Signals:
+        """The parameters as signals, by name; shared by all readers."""
+        return Signals(type(self)._shared)
+
+    @property
+    def scene(self) -> Scene:
+        """The model that all readers of the class share: an edit of it is seen by all of them.
+
+        What it is at a point needs a reader's values: `fig.at(t)`, or `fig.scene.at(t, length=2)`. Its objects are
+        fixed: one that is there for a while only has `visible`.
+        """
+        return type(self)._shared.scene(self)
+
+    if TYPE_CHECKING:  # a class says it with a plain attribute: times = (0, 6)
+        times: tuple[float, float]
+    else:
+
+        @property
+        def times(self) -> tuple[float, float]:
+            """Over which time it is shown, seconds: what the class says, else what follows from the scene."""
+            return self.scene.times
+
+    # -- the reader ------------------------------------------------------------------------------------------------
+
+    def at(self, t: float, /, **parameters: Any) -> Frame:
+        """What a viewer needs at a time, with this reader's parameters.
+
+        Args:
+            t: seconds.
+            **parameters: values for this once; those not named are the reader's.
+
+        Raises:
+            ParameterError: a value that this reader cannot have, in the words of param.
+            UnknownNameError: there is no parameter of that name.
+        """
+        scene = self.scene
+        own = self.values(**parameters)
+        others = {name: value for name, value in parameters.items() if name not in own}
+        return scene.at(t, **own, **others)
+
+    def values(self, **parameters: Any) -> dict[str, Any]:
+        """This reader's values of all parameters that can be driven, as signals answer them, by name.
+
+        Args:
+            **parameters: values in place of the reader's.
+
+        Raises:
+            ParameterError: a value that this reader cannot have.
+        """
+        axes = type(self)._shared.axes
+        mine = self.param.values()
+        declared = self.param.objects("existing")
+        found: dict[str, Any] = {}
+        for name, axis in axes.items():
+            axis.widen(declared[name])
+            found[name] = admitted(declared[name], parameters.get(name, mine[name]))
+            if name in parameters and declared[name].constant and not same(found[name], mine[name]):
+                raise hint(ParameterError(f"Constant parameter {name!r} cannot be modified."), f"it is {mine[name]!r}")
+        return found
+
+    @property
+    def controls(self) -> tuple[Control, ...]:
+        """How this reader drives each parameter, in their order, as things are now."""
+        shared = type(self)._shared
+        declared = self.param.objects("existing")
+        return tuple([control_of(declared[name]) for name in shared.axes])
+
+    @property
+    def point(self) -> Bookmark:
+        """Where this reader is: a time, the values of the parameters, and where they look from; it can be set.
+
+        Setting it sets the parameters that it names, all of them or, where one is refused, none.
+        """
+        given = {control.name: control.encode(getattr(self, control.name)) for control in self.controls}
+        return Bookmark(self.times[0] if self._time is None else self._time, given, self._camera)
+
+    @point.setter
+    def point(self, value: Bookmark) -> None:
+        if not isinstance(value, Bookmark):  # pyright: ignore[reportUnnecessaryIsInstance]
+            error = ShapeError(f"point: expected a Bookmark, got {value!r}")
+            raise hint(error, "of a link: r4.Bookmark.from_link(text, fig)")
+        self.settle(value.parameters)
+        self._time, self._camera = value.time, value.camera
+
+    def settle(self, wires: Mapping[str, Any], *, strict: bool = True) -> None:
+        """Set several parameters, as they travel, where the bounds of one may depend on the value of another.
+
+        Args:
+            wires: values by name.
+            strict: whether what this reader cannot have is refused; else it is moved into the bounds, or left out.
+
+        Raises:
+            UnknownNameError: strict, and there is no parameter of that name.
+            ParameterError: strict, and a value is refused; then all is as before.
+        """
+        settle(self, wires, strict=strict)
+
+    # -- devices ---------------------------------------------------------------------------------------------------
+
+    def show(self, **options: Any) -> Any:
+        """Put it before a reader: in a window, or in a cell of a notebook."""
+        return device("show")(self, **options)
+
+    def bake(self, path: str | Path, **options: Any) -> Any:
+        """Write one page that needs no server: figure, player, controls.
+
+        Args:
+            path: of the file, .html.
+            **options: `times`, seconds; a parameter's values by its name; `text`, `title`, `limit` and so on.
+        """
+        return device("bake")(self, path, **options)
+
+    def render(self, path: str | Path, **options: Any) -> Any:
+        """Draw a still picture of what this reader sees.
+
+        Args:
+            path: of the file, .png.
+            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
+        """
+        return device("render")(self, path, **options)
+
+
+def _refuse_taken(cls: type, name: str) -> None:
+    """Raise if a parameter has a name that means something else already."""
+    if name in ("t", "cam") or (name != "name" and hasattr(Illustration, name)):
+        error = ParameterError(f"{cls.__name__}.{name} cannot be a parameter: the name has a meaning of its own")
+        raise hint(error, "give it another one; `t` is the time, `cam` the camera of a link")
+
+
+type.__setattr__(Illustration, "_shared", Shared(Illustration))

@@ -1,0 +1,128 @@
+"""Settling: setting several parameters at once, where the bounds of one may depend on the value of another.
+
+What is refused at first is tried again after the others were set: their watchers may have moved its bounds. So the
+order in which values come, from a link or from a page, does not count.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
+from reactive4d.illustrations.controls import Control, control_of
+from reactive4d.illustrations.kinds import kind_of
+
+__all__ = ["settle", "twin"]
+
+MOST_ROUNDS = 3  # a watcher may set again what was set before it ran
+MOVED = ("bounds", "inclusive_bounds", "softbounds", "step", "constant", "precedence", "objects", "names", "allow_None")
+
+
+def settle(reader: Any, wires: Mapping[str, Any], *, strict: bool = True) -> None:
+    """Set parameters of a reader, as they travel.
+
+    Args:
+        reader: an illustration.
+        wires: values by name.
+        strict: whether what the reader cannot have is refused; else it is moved into the bounds, or left out.
+
+    Raises:
+        UnknownNameError: strict, and there is no parameter of that name.
+        ParameterError: strict, and a value is refused; then all is as before.
+    """
+    known = [name for name, declared in reader.param.objects("existing").items() if kind_of(declared) is not None]
+    for name in wires:
+        if name not in known and strict:
+            raise unknown(name, known, what="parameter")
+    wanted = {name: wire for name, wire in wires.items() if name in known}
+    before = {control.name: control.encode(getattr(reader, control.name)) for control in _controls(reader, known)}
+    problem = _tried(reader, wanted)
+    if problem is not None and strict:
+        _tried(reader, before)
+        raise problem
+    if problem is not None:
+        for name, wire in wanted.items():
+            control = _control(reader, name)
+            try:
+                _set(reader, control, control.admit(wire))
+            except ParameterError:
+                continue
+
+
+def _tried(reader: Any, wanted: Mapping[str, Any]) -> ParameterError | None:
+    """Set all of these, in whatever order they are admitted; what one of them was refused for."""
+    problem: ParameterError | None = None
+    for _ in range(MOST_ROUNDS):
+        todo = dict(wanted)
+        while todo:
+            count = len(todo)
+            for name, wire in list(todo.items()):
+                try:
+                    _set(reader, _control(reader, name), wire)
+                    del todo[name]
+                except ParameterError as error:
+                    problem = error
+            if len(todo) == count:
+                return problem
+        if all(_is_at(reader, _control(reader, name), wire) for name, wire in wanted.items()):
+            return None
+    names = [name for name, wire in wanted.items() if not _is_at(reader, _control(reader, name), wire)]
+    error = ParameterError(f"{type(reader).__name__}: {', '.join(names)} cannot have these values together")
+    return hint(error, "a method that watches one parameter sets another one again")
+
+
+def _set(reader: Any, control: Control, wire: Any) -> None:
+    value = control.decode(wire)
+    if _is_at(reader, control, wire):
+        return
+    try:
+        setattr(reader, control.name, value)
+    except (ValueError, TypeError) as error:
+        if isinstance(error, Reactive4dError) and not isinstance(error, ParameterError):
+            raise
+        raise ParameterError(str(error)) from None
+
+
+def _is_at(reader: Any, control: Control, wire: Any) -> bool:
+    value = reader.param.values()[control.name]
+    try:
+        return value is control.decode(wire) or control.encode(value) == control.encode(control.decode(wire))
+    except ParameterError:
+        return False
+
+
+def _control(reader: Any, name: str) -> Control:
+    return control_of(reader.param.objects("existing")[name])
+
+
+def _controls(reader: Any, names: list[str]) -> list[Control]:
+    return [_control(reader, name) for name in names]
+
+
+def twin(reader: Any) -> Any:
+    """Another reader at the same point and with the same bounds, to try something with.
+
+    Raises:
+        Reactive4dError: its class cannot be made without more arguments.
+    """
+    cls = type(reader)
+    declared = reader.param.objects("existing")
+    own = reader.param.values()
+    fixed = {n: own[n] for n, p in declared.items() if p.constant and not p.readonly and n != "name"}
+    try:
+        made = cls(**fixed)
+    except TypeError as error:
+        refusal = Reactive4dError(f"{cls.__name__} cannot be made without more arguments: {error}")
+        raise hint(refusal, "__init__(self, **parameters) may have others, if all of them have defaults") from error
+    for name, parameter in declared.items():
+        if parameter is cls.param.objects(instance=False)[name]:
+            continue
+        for slot in MOVED:
+            if hasattr(parameter, slot) and slot != "names":
+                value = getattr(parameter, slot)
+                if slot == "objects":
+                    value = dict(parameter.names) if parameter.names else list(value)
+                if slot != "constant" or not parameter.readonly:
+                    setattr(made.param[name], slot, value)
+    names = [name for name, parameter in declared.items() if kind_of(parameter) is not None]
+    settle(made, {control.name: control.encode(own[control.name]) for control in _controls(reader, names)})
+    return made
