@@ -1,0 +1,91 @@
+/** What a figure says: the text of its picture, and after the reader acted, what became of it. */
+
+import { format, stepped, timeText, withUnit } from "./formats.js";
+import { stepOf } from "./stepping.js";
+
+/**
+ * @typedef {import("../core/types.js").Manifest} Manifest
+ * @typedef {import("../core/types.js").Value} Value
+ * @typedef {{ time: number, parameters: import("../core/types.js").Parameters, alt?: string }} Moment
+ */
+
+/**
+ * The text of the picture: "At 1.27 s: a pendulum, its bob left of the middle." The scene's own text if it has one,
+ * else the title and the values of the parameters.
+ * @param {Manifest} manifest
+ * @param {Moment} moment
+ */
+export function pictureText(manifest, { time, parameters, alt }) {
+  const when = `At ${timeText(time)}`;
+  const text = alt?.trim() ?? "";
+  if (/^at \S+\s*s\b/i.test(text)) return text;
+  if (text) return `${when}: ${text}`;
+  const settings = parameterTexts(manifest, parameters).join(", ");
+  return `${when}: ${[manifest.title || manifest.name, settings].filter(Boolean).join(", ")}.`;
+}
+
+/**
+ * "length 1.50 m", for each parameter in view.
+ * @param {Manifest} manifest
+ * @param {import("../core/types.js").Parameters} parameters
+ */
+export function parameterTexts(manifest, parameters) {
+  return manifest.parameters.filter((p) => !p.hidden && p.name in parameters)
+    .map((p) => `${p.label} ${valueText(p, parameters[p.name])}`);
+}
+
+/**
+ * A parameter's value as one reads it, with its unit; a spec is Python's, as in format().
+ * @param {import("../core/types.js").Parameter} parameter
+ * @param {Value} value
+ * @param {string | null} [spec]
+ */
+export function valueText(parameter, value, spec = null) {
+  if (parameter.kind === "select") {
+    const key = JSON.stringify(value);
+    const at = parameter.options?.findIndex((option) => JSON.stringify(option) === key) ?? -1;
+    return parameter.labels?.[at] ?? format(value);
+  }
+  if (parameter.kind === "boolean") return value ? "on" : "off";
+  if (parameter.kind === "color" && !Array.isArray(value)) return String(value);
+  const step = stepOf(parameter);
+  const plain = (/** @type {unknown} */ x) => typeof x === "number" && spec === null;
+  const one = (/** @type {any} */ x) => (plain(x) ? stepped(x, step) : format(x, spec ?? ""));
+  const text = Array.isArray(value) ? value.map(one).join(parameter.kind === "range" ? " – " : ", ") : one(value);
+  return withUnit(text, parameter.unit);
+}
+
+/**
+ * A polite live region, which speaks at most every so many milliseconds, and then only the latest.
+ */
+export class Announcer {
+  #last = -Infinity;
+  /** @type {ReturnType<typeof setTimeout> | null} */ #timer = null;
+  #write;
+
+  /**
+   * @param {(text: string) => void} write
+   * @param {{ every?: number, now?: () => number }} [options] milliseconds
+   */
+  constructor(write, { every = 1200, now = () => performance.now() } = {}) {
+    this.#write = write;
+    this.every = every;
+    this.now = now;
+  }
+
+  /** @param {() => string} text asked when it is spoken */
+  say(text) {
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    // A little silence first: whoever drags or holds a key is told where they arrived, not each step.
+    const wait = Math.max(350, this.#last + this.every - this.now());
+    this.#timer = setTimeout(() => {
+      this.#timer = null;
+      this.#last = this.now();
+      this.#write(text());
+    }, wait);
+  }
+
+  dispose() {
+    if (this.#timer !== null) clearTimeout(this.#timer);
+  }
+}
