@@ -7,7 +7,7 @@ import param
 
 from reactive4d.engine import Axis
 from reactive4d.errors import ParameterError
-from reactive4d.illustrations.kinds import admitted, choices_of, kind_of, refused_kind
+from reactive4d.illustrations.kinds import admitted, choices_of, declared, kind_of, refused_kind
 from reactive4d.signals.sources import Parameter
 
 __all__ = ["Driven"]
@@ -28,26 +28,28 @@ class Driven(Parameter[T]):
     def __init__(self, owner: type[param.Parameterized], name: str) -> None:
         self._owner = owner
         self._wider: Any = None  # the parameter as it would be declared to admit what some readers' own admit
-        declared = self.declared(name)
-        if kind_of(declared) is None:
-            raise refused_kind(declared)
-        self.doc = str(declared.doc or "")
-        self.bounds = getattr(declared, "bounds", None)
-        Axis.__init__(self, name, declared.default)
+        self.name = name
+        parameter = self.declared
+        if kind_of(parameter) is None:
+            raise refused_kind(parameter)
+        self.doc = str(parameter.doc or "")
+        self.bounds = getattr(parameter, "bounds", None)
+        Axis.__init__(self, name, parameter.default)
 
-    def declared(self, name: str = "") -> Any:
+    @property
+    def declared(self) -> Any:
         """The parameter as the class declares it."""
-        return self._owner.param.objects(instance=False)[name or self.name]
+        return declared(self._owner)[self.name]
 
     def widen(self, own: Any) -> None:
         """Admit also what one reader's own parameter admits."""
-        declared = self.declared()
-        if own is declared:
+        parameter = self.declared
+        if own is parameter:
             return
-        wider = declared if self._wider is None else self._wider
+        wider = parameter if self._wider is None else self._wider
         bounds, choices = _hull(wider, own), _more(wider, own)
         if bounds != getattr(wider, "bounds", None) or choices is not None:
-            wider = copy.copy(declared)
+            wider = copy.copy(parameter)
             wider.watchers = {}
             if choices is None:
                 wider.bounds, wider.inclusive_bounds = bounds, (True, True)
@@ -62,7 +64,7 @@ class Driven(Parameter[T]):
             ParameterError: in the words of param.
         """
         try:
-            return admitted(self.declared(), value)
+            return admitted(self.declared, value)
         except ParameterError:
             if self._wider is None:
                 raise

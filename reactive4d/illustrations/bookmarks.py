@@ -90,10 +90,11 @@ class Bookmark:
         >>> Bookmark(1.0, {"place": (0.0, 2.0)}, ((0, -5, 1), (0, 0, 0))).to_json()["camera"]
         {'position': [0.0, -5.0, 1.0], 'target': [0.0, 0.0, 0.0]}
         """
-        look = self.camera
+        look, given = self.camera, dict(self.parameters)
+        pairs: dict[str, Any] = {name: [*value] for name, value in given.items() if isinstance(value, tuple)}
         return {
             "time": self.time,
-            "parameters": {n: list(v) if isinstance(v, tuple) else v for n, v in self.parameters.items()},
+            "parameters": {**given, **pairs},
             "camera": None if look is None else {"position": list(look[0]), "target": list(look[1])},
         }
 
@@ -181,7 +182,7 @@ def fields_of(text: Any, *, prefix: str = "", strict: bool = False) -> dict[str,
     dotted = [(name.rpartition("."), part) for name, part in pairs]
     if any(figure == prefix and dot for (figure, dot, _), _ in dotted):
         return {name: part for (figure, _, name), part in dotted if figure == prefix}
-    return {name: part for (figure, dot, name), part in dotted if not dot}
+    return {name: part for (_, dot, name), part in dotted if not dot}
 
 
 def _meant(name: str, text: str, controls: "Iterable[Control]") -> Any:
@@ -248,6 +249,6 @@ def _text(value: Any) -> str:
         return value
     if isinstance(value, tuple):
         return ",".join([_text(part) for part in value])  # pyright: ignore[reportUnknownVariableType]
-    if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
         return str(int(value))
     return json.dumps(value)

@@ -13,7 +13,7 @@ import param
 from reactive4d.engine.frames import here
 from reactive4d.errors import EvaluationError, ParameterError, ShapeError, hint, unknown
 from reactive4d.illustrations.axes import Driven
-from reactive4d.illustrations.kinds import kind_of, path_of, refused_kind
+from reactive4d.illustrations.kinds import declared, kind_of, path_of, refused_kind
 from reactive4d.model.scenes import Scene
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import finished
@@ -50,8 +50,8 @@ class Shared:
     @property
     def axes(self) -> dict[str, Driven[Any]]:
         """The axes of all parameters that can be driven, by name."""
-        for name, declared in self.owner.param.objects(instance=False).items():
-            if name not in self._axes and kind_of(declared) is not None:
+        for name, parameter in declared(self.owner).items():
+            if name not in self._axes and kind_of(parameter) is not None:
                 self.axis(name)
         return self._axes
 
@@ -65,14 +65,14 @@ class Shared:
         found = self._axes.get(name)
         if found is not None:
             return found
-        declared = self.owner.param.objects(instance=False)
-        if name not in declared:
-            known = [other for other, parameter in declared.items() if kind_of(parameter) is not None]
+        parameters = declared(self.owner)
+        if name not in parameters:
+            known = [other for other, parameter in parameters.items() if kind_of(parameter) is not None]
             near = unknown(name, known, what="parameter")
             error = AttributeError(f"{self.owner.__name__} has no parameter {name!r}")
             raise hint(error, near.__notes__[0].removeprefix("hint: "))
-        if kind_of(declared[name]) is None:
-            raise refused_kind(declared[name])
+        if kind_of(parameters[name]) is None:
+            raise refused_kind(parameters[name])
         with _LOCK:
             return self._axes.setdefault(name, Driven(self.owner, name))
 
@@ -104,7 +104,7 @@ class Shared:
         before = _desk.reader
         _desk.reader, self._is_building = reader, True
         try:
-            finished(type(reader).build, f"{name}.build")
+            finished(reader.build, f"{name}.build")
             scene: Any = reader.build()
         except Exception as error:
             error.add_note(f"while building {name}")
@@ -126,18 +126,17 @@ def is_out_of_reach(reader: Any) -> bool:
 
 def refuse_value(reader: Any, name: str) -> None:
     """Raise if a parameter's value is read where it would be one reader's, and what is made of it is for all."""
-    cls = type(reader)
-    declared = cls.param.objects(instance=False).get(name) if name != "name" else None
-    if declared is None or _is_from_param():
+    parameter = declared(type(reader)).get(name) if name != "name" else None
+    if parameter is None or _is_from_param():
         return
     if _desk.reader is reader:
-        error = EvaluationError(f"{path_of(declared)} was read in build(), which runs once for all readers")
+        error = EvaluationError(f"{path_of(parameter)} was read in build(), which runs once for all readers")
     else:
         cell = here.me.frame.cell.name  # pyright: ignore[reportOptionalMemberAccess]
-        error = EvaluationError(f"{path_of(declared)} was read in the evaluation of {cell}, which is for all readers")
-    if kind_of(declared) is None:
+        error = EvaluationError(f"{path_of(parameter)} was read in the evaluation of {cell}, which is for all readers")
+    if kind_of(parameter) is None:
         raise hint(
-            error, f"a {type(declared).__name__} cannot be driven: what all readers share is a constant of the class"
+            error, f"a {type(parameter).__name__} cannot be driven: what all readers share is a constant of the class"
         )
     raise hint(error, f"self.signals.{name} is the parameter as a signal")
 
@@ -151,9 +150,9 @@ def refuse_keeping(reader: Any, name: str) -> None:
 
 def refuse_signal(reader: Any, name: str, value: Signal[Any]) -> None:
     """Raise if a signal is given to a parameter: a reader drives values."""
-    declared = type(reader).param.objects(instance=False).get(name)
-    if declared is not None:
-        error = ParameterError(f"{path_of(declared)}: expected a value, got the signal {value.name}")
+    parameter = declared(type(reader)).get(name)
+    if parameter is not None:
+        error = ParameterError(f"{path_of(parameter)}: expected a value, got the signal {value.name}")
         raise hint(error, "a reader gives values; build() makes the model depend on them")
 
 

@@ -9,6 +9,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, TypeAlias
 
 from reactive4d.engine import Axis
@@ -207,13 +208,12 @@ def control_of(parameter: Any, *, default: Any = None) -> Control:
 def control_of_axis(axis: Axis) -> Control | None:
     """The control of a parameter of a plain scene; None if there is no control for such values."""
     default: Any = axis.default
-    kinds: dict[type, Kind] = {float: "number", int: "integer", bool: "boolean", str: "select"}
-    kind = "xy" if type(default) is tuple and len(default) == 2 else kinds.get(type(default))
+    kind = _kind_of_default(default)
     if kind is None:
         return None
-    check = axis.admit
-    if kind == "select" and _is_color(default):
-        kind, check = "color", lambda value: axis.admit(hexadecimal(value))
+    check: Callable[[Any], Any] = axis.admit
+    if kind == "color":
+        check = partial(_admitted_color, axis)
     doc, unit = _doc_and_unit(axis.doc if isinstance(axis, Parameter) else "")
     bounds: Any = axis.bounds if isinstance(axis, Parameter) else None
     made = Control(
@@ -232,6 +232,19 @@ def control_of_axis(axis: Axis) -> Control | None:
         choices=(default,) if kind == "select" else (),
     )
     return _beginning(made, default)
+
+
+def _kind_of_default(default: Any) -> Kind | None:
+    kinds: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "select"}
+    if isinstance(default, str) and re.fullmatch("#(?:[0-9a-fA-F]{3}){1,2}", default):
+        return "color"
+    if isinstance(default, tuple):
+        return "xy" if len(default) == 2 else None  # pyright: ignore[reportUnknownArgumentType]
+    return kinds.get(type(default))
+
+
+def _admitted_color(axis: Axis, value: Any) -> Any:
+    return axis.admit(hexadecimal(value) if isinstance(value, str) else value)
 
 
 def _beginning(control: Control, value: Any) -> Control:
@@ -279,10 +292,6 @@ def _choices(parameter: Any) -> tuple[tuple[Wire, ...], tuple[str, ...], tuple[A
 
 def _is_scalar(one: Any) -> bool:
     return one is None or type(one) in (bool, int, str) or (type(one) is float and math.isfinite(one))
-
-
-def _is_color(text: str) -> bool:
-    return re.fullmatch("#(?:[0-9a-fA-F]{3}){1,2}", text) is not None
 
 
 def _refused(text: str) -> Any:

@@ -1,4 +1,4 @@
-"""Illustrations: models whose parameters readers drive. A class has one model and one memo, a reader is a point in it."""
+"""Illustrations: models whose parameters readers drive. A class has one model and one memo, a reader a point."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,12 +12,13 @@ from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.illustrations.bookmarks import Bookmark, Look
 from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_signal, refuse_value
 from reactive4d.illustrations.controls import Control, control_of
-from reactive4d.illustrations.kinds import admitted, kind_of
+from reactive4d.illustrations.kinds import admitted, declared, kind_of
 from reactive4d.illustrations.settling import settle
 from reactive4d.model.frames import Frame
 from reactive4d.model.reaches import as_times
 from reactive4d.model.scenes import Scene
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.trees import is_a
 
 __all__ = ["Illustration", "Signals"]
 
@@ -37,6 +38,8 @@ class Signals(Mapping[str, Signal[Any]]):
     """
 
     __slots__ = ("_shared",)
+
+    _shared: Shared
 
     def __init__(self, shared: Shared) -> None:
         object.__setattr__(self, "_shared", shared)
@@ -120,7 +123,7 @@ class Illustration(param.Parameterized):
         return super().__getattribute__(name)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if isinstance(value, Signal):
+        if is_a(value, Signal):
             refuse_signal(self, name, value)
         refuse_keeping(self, name)
         super().__setattr__(name, value)
@@ -188,21 +191,20 @@ class Illustration(param.Parameterized):
         """
         axes = type(self)._shared.axes
         mine = self.param.values()
-        declared = self.param.objects("existing")
+        known = declared(self)
         found: dict[str, Any] = {}
         for name, axis in axes.items():
-            axis.widen(declared[name])
-            found[name] = admitted(declared[name], parameters.get(name, mine[name]))
-            if name in parameters and declared[name].constant and not same(found[name], mine[name]):
+            axis.widen(known[name])
+            found[name] = admitted(known[name], parameters.get(name, mine[name]))
+            if name in parameters and known[name].constant and not same(found[name], mine[name]):
                 raise hint(ParameterError(f"Constant parameter {name!r} cannot be modified."), f"it is {mine[name]!r}")
         return found
 
     @property
     def controls(self) -> tuple[Control, ...]:
         """How this reader drives each parameter, in their order, as things are now."""
-        shared = type(self)._shared
-        declared = self.param.objects("existing")
-        return tuple([control_of(declared[name]) for name in shared.axes])
+        known = declared(self)
+        return tuple([control_of(known[name]) for name in type(self)._shared.axes])
 
     @property
     def point(self) -> Bookmark:

@@ -14,7 +14,7 @@ from reactive4d.errors import ParameterError, hint
 from reactive4d.signals.colors import color
 from reactive4d.signals.facade import Signal
 
-__all__ = ["DRIVEN", "Kind", "admitted", "choices_of", "hexadecimal", "kind_of", "path_of", "refused_kind"]
+__all__ = ["DRIVEN", "Kind", "admitted", "choices_of", "declared", "hexadecimal", "kind_of", "path_of", "refused_kind"]
 
 Kind: TypeAlias = Literal["number", "integer", "boolean", "select", "color", "range", "xy"]
 
@@ -45,6 +45,12 @@ def kind_of(parameter: Any) -> Kind | None:
     ('integer', None)
     """
     return next((kind for cls, kind in _KINDS if isinstance(parameter, cls)), None)
+
+
+def declared(owner: Any) -> dict[str, Any]:
+    """All parameters of a class as it declares them, or of a reader as they are for this one, by name."""
+    found: dict[str, Any] = owner.param.objects(False if isinstance(owner, type) else "existing")
+    return found
 
 
 def path_of(parameter: Any) -> str:
@@ -150,11 +156,12 @@ def _pair(parameter: Any, value: Any) -> tuple[float, float]:
 
 def _choice(parameter: Any, value: Any) -> Any:
     """The very object of the choices that the value is, or is equal to."""
-    listed = choices_of(parameter)
-    for is_meant in (lambda x: x is value, lambda x: type(x) is type(value) and x == value, lambda x: x == value):
-        for one in listed.values():
-            if is_meant(one):
-                return one
+    listed = list(choices_of(parameter).values())
+    found: list[Any] = [one for one in listed if one is value]
+    found = found or [one for one in listed if type(one) is type(value) and one == value]
+    found = found or [one for one in listed if one == value]
+    if found:
+        return found[0]
     if parameter.check_on_set:
         raise ValueError
     if not isinstance(value, Hashable) or isinstance(value, Signal):

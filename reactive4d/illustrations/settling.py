@@ -9,12 +9,12 @@ from typing import Any
 
 from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
 from reactive4d.illustrations.controls import Control, control_of
-from reactive4d.illustrations.kinds import kind_of
+from reactive4d.illustrations.kinds import declared, kind_of
 
 __all__ = ["settle", "twin"]
 
 MOST_ROUNDS = 3  # a watcher may set again what was set before it ran
-MOVED = ("bounds", "inclusive_bounds", "softbounds", "step", "constant", "precedence", "objects", "names", "allow_None")
+MOVED = ("bounds", "inclusive_bounds", "softbounds", "step", "constant", "precedence", "allow_None")
 
 
 def settle(reader: Any, wires: Mapping[str, Any], *, strict: bool = True) -> None:
@@ -29,7 +29,7 @@ def settle(reader: Any, wires: Mapping[str, Any], *, strict: bool = True) -> Non
         UnknownNameError: strict, and there is no parameter of that name.
         ParameterError: strict, and a value is refused; then all is as before.
     """
-    known = [name for name, declared in reader.param.objects("existing").items() if kind_of(declared) is not None]
+    known = [name for name, parameter in declared(reader).items() if kind_of(parameter) is not None]
     for name in wires:
         if name not in known and strict:
             raise unknown(name, known, what="parameter")
@@ -91,7 +91,7 @@ def _is_at(reader: Any, control: Control, wire: Any) -> bool:
 
 
 def _control(reader: Any, name: str) -> Control:
-    return control_of(reader.param.objects("existing")[name])
+    return control_of(declared(reader)[name])
 
 
 def _controls(reader: Any, names: list[str]) -> list[Control]:
@@ -104,25 +104,26 @@ def twin(reader: Any) -> Any:
     Raises:
         Reactive4dError: its class cannot be made without more arguments.
     """
-    cls = type(reader)
-    declared = reader.param.objects("existing")
-    own = reader.param.values()
-    fixed = {n: own[n] for n, p in declared.items() if p.constant and not p.readonly and n != "name"}
+    cls: Any = reader.__class__
+    own, known, usual = reader.param.values(), declared(reader), declared(cls)
+    fixed = {n: own[n] for n, p in known.items() if p.constant and not p.readonly and n != "name"}
     try:
         made = cls(**fixed)
     except TypeError as error:
         refusal = Reactive4dError(f"{cls.__name__} cannot be made without more arguments: {error}")
         raise hint(refusal, "__init__(self, **parameters) may have others, if all of them have defaults") from error
-    for name, parameter in declared.items():
-        if parameter is cls.param.objects(instance=False)[name]:
-            continue
-        for slot in MOVED:
-            if hasattr(parameter, slot) and slot != "names":
-                value = getattr(parameter, slot)
-                if slot == "objects":
-                    value = dict(parameter.names) if parameter.names else list(value)
-                if slot != "constant" or not parameter.readonly:
-                    setattr(made.param[name], slot, value)
-    names = [name for name, parameter in declared.items() if kind_of(parameter) is not None]
+    for name, parameter in known.items():
+        if parameter is not usual[name]:
+            _copy(parameter, made.param[name])
+    names = [name for name, parameter in known.items() if kind_of(parameter) is not None]
     settle(made, {control.name: control.encode(own[control.name]) for control in _controls(reader, names)})
     return made
+
+
+def _copy(parameter: Any, other: Any) -> None:
+    """Let one reader's parameter be as another one's."""
+    for slot in MOVED:
+        if hasattr(parameter, slot):
+            setattr(other, slot, getattr(parameter, slot))
+    if hasattr(parameter, "objects"):
+        other.objects = dict(parameter.names) if parameter.names else list(parameter.objects)
