@@ -1,0 +1,116 @@
+"""Settings: what becomes of a signal that was assigned to an attribute of an object or a change."""
+
+from typing import Any
+
+import numpy as np
+
+from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Reference, Setting, Text, Vector
+from reactive4d.signals.colors import color
+from reactive4d_widgets.lowering.operations import vector
+from reactive4d_widgets.lowering.ranges import Bounds, range_of
+from reactive4d_widgets.lowering.terms import (
+    HELD,
+    NUMBER,
+    NotExactError,
+    Term,
+    applied,
+    component,
+    constant,
+    of_track,
+    polynomials,
+)
+from reactive4d_widgets.lowering.numerals import array_of
+
+__all__ = ["conformed"]
+
+_TRUTHS = ("<", "<=", ">", ">=", "==", "!=", "not", "and", "or")
+
+
+def conformed(term: Term, setting: Setting[Any], bounds: Bounds) -> Term:
+    """A signal's values as a setting takes them.
+
+    Args:
+        term: the signal that was assigned.
+        setting: where.
+        bounds: between which values the reader's parameters lie, by name.
+
+    Raises:
+        NotExactError: the setting would refuse some of them, or nobody can say that it takes them all.
+    """
+    if term.is_constant:
+        return constant(setting.constant(setting.check(term.value)))
+    if isinstance(setting, Float):
+        _expect(term.shape == NUMBER and _is_within(term, setting.low, setting.high, bounds), setting)
+        return term
+    if isinstance(setting, Flag):
+        return _truth(term, setting)
+    if isinstance(setting, Vector):
+        return _vector(term, setting, bounds)
+    if isinstance(setting, Paint):
+        return _paint(term, setting, bounds)
+    if isinstance(setting, Text | Choice):
+        _expect(term.shape == HELD, setting)
+        return term
+    _expect(isinstance(setting, Held | Reference) and not isinstance(setting, Integer), setting)
+    return term
+
+
+def _expect(condition: bool, setting: Setting[Any]) -> None:
+    if not condition:
+        raise NotExactError(f"{setting.path} may refuse what is assigned to it")
+
+
+def _is_within(term: Term, low: float, high: float, bounds: Bounds) -> bool:
+    if low == -np.inf and high == np.inf:
+        return True
+    lowest, highest = range_of(term.tree, bounds)
+    return low <= lowest and highest <= high
+
+
+def _truth(term: Term, setting: Setting[Any]) -> Term:
+    _expect(term.shape == NUMBER, setting)
+    tree = term.tree
+    if isinstance(tree, list):
+        if tree[0] in _TRUTHS:
+            return term
+        if tree[0] == "track" and tree[1]["kind"] == "stepped":  # pyright: ignore[reportUnknownMemberType]
+            track: Any = tree[1]  # pyright: ignore[reportUnknownVariableType]
+            return of_track({**track, "values": [bool(x) for x in track["values"]]}, NUMBER)
+    return applied("!=", term, constant(0.0), shape=NUMBER)
+
+
+def _vector(term: Term, setting: Vector, bounds: Bounds) -> Term:
+    if setting.spreads and term.shape == NUMBER:
+        term = vector([term] * (setting.shape[0] or 0)) if setting.shape != (3,) else term
+        _expect(_is_within(term, setting.low, setting.high, bounds), setting)
+        return term
+    shape = term.shape
+    fits = isinstance(shape, tuple) and len(shape) == len(setting.shape)
+    fits = fits and all(n in (None, m) for n, m in zip(setting.shape, shape, strict=True))
+    _expect(fits and not setting.is_whole and _is_within(term, setting.low, setting.high, bounds), setting)
+    return term
+
+
+def _paint(term: Term, setting: Setting[Any], bounds: Bounds) -> Term:
+    """Four numbers: three get their alpha, and names become colours."""
+    tree = term.tree
+    track: Any = tree[1] if isinstance(tree, list) and tree[0] == "track" else None
+    if term.shape == HELD:
+        _expect(track is not None and track["kind"] == "stepped", setting)
+        return of_track({**track, "values": [color(x).tolist() for x in track["values"]]}, (4,))
+    _expect(term.shape in ((3,), (4,)) and _is_within(term, 0.0, 1.0, bounds), setting)
+    if term.shape == (4,):
+        return term
+    if track is not None and track["kind"] == "poly":
+        return _opaque(track)
+    return vector([*[component(term, i) for i in range(3)], constant(1.0)])
+
+
+def _opaque(track: Any) -> Term:
+    """A polynomial of three components with a fourth one that is 1."""
+    times = array_of(track["times"])
+    rows = array_of(track["coefficients"]).reshape(len(times) - 1, track["degree"] + 1, 3)
+    alpha = np.zeros((*rows.shape[:2], 1))
+    alpha[:, 0] = 1.0
+    end = [*array_of(track["end"]), 1.0] if "end" in track else None
+    return polynomials(times.tolist(), np.concatenate([rows, alpha], axis=2), end=end, shape=(4,))
