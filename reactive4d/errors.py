@@ -12,6 +12,7 @@
         ParameterError        a parameter out of bounds, of another type, or twice under one name  (also a ValueError)
         UnknownNameError      a name nobody knows, with the nearest known one   (also a LookupError)
         ScriptError           a script that cannot be read: file, line, column, and what was expected there
+        PageTooLargeError     a page that would take more bytes than it may, with a table of what takes them
 
 Every message says what is wrong, with the value, and what was expected; a note (PEP 678) says what to do.
 """
@@ -24,6 +25,7 @@ __all__ = [
     "CycleError",
     "DepthError",
     "EvaluationError",
+    "PageTooLargeError",
     "ParameterError",
     "Reactive4dError",
     "ScriptError",
@@ -169,6 +171,22 @@ class ScriptError(Reactive4dError):
     def __str__(self) -> str:
         parts = [self.file or "<script>", *[str(n) for n in (self.line, self.column) if n is not None]]
         return f"{':'.join(parts)}: {super().__str__()}"
+
+
+class PageTooLargeError(Reactive4dError):
+    """A page would take more bytes than it may; the message has a table of what takes them, the largest first.
+
+    Nothing was written. Fewer times, fewer values of a parameter, or a coarser surface make a page smaller.
+
+    >>> error = PageTooLargeError("about 30.1 MB, more than the limit of 20 MB", size=30_100_000, limit=20_000_000)
+    >>> str(error), error.size - error.limit
+    ('about 30.1 MB, more than the limit of 20 MB', 10100000)
+    """
+
+    def __init__(self, message: str, *, size: int = 0, limit: int = 0) -> None:
+        super().__init__(message)
+        self.size = size
+        self.limit = limit
 
 
 def hint(error: E, text: str) -> E:
