@@ -1,0 +1,203 @@
+"""Stills: pictures of a scene at one instant, for print, for posters, and for whoever has no browser."""
+
+import io
+import math
+import operator
+import os
+from pathlib import Path
+from typing import Any
+
+from reactive4d.errors import ShapeError, UnknownNameError, hint, unknown
+from reactive4d.geometry.files import put
+from reactive4d.geometry.transforms import inverse, look_at
+from reactive4d.illustrations import subject as subject_of
+from reactive4d.model.frames import Frame
+from reactive4d.signals.colors import color as color_of
+from reactive4d_widgets.compositions import composed
+from reactive4d_widgets.lamps import light_of
+from reactive4d_widgets.shaders import shading
+from reactive4d_widgets.views import View, camera_of, camera_view, view_of
+
+__all__ = ["poster", "render", "seen"]
+
+SIZE = (1280, 960)
+LARGEST = 8192  # pixels; beyond it cards have no textures
+PAPERS = {"light": "#faf9f6", "dark": "#16181d"}
+FILMS = {".mp4", ".mov", ".webm", ".avi", ".mkv", ".gif", ".apng"}
+MODELS = {".glb", ".gltf", ".usd", ".usda", ".usdz", ".obj", ".stl", ".ply"}
+
+
+def render(
+    subject: Any,
+    path: str | os.PathLike[str],
+    *,
+    t: float = 0.0,
+    size: tuple[int, int] = SIZE,
+    camera: Any = None,
+    background: str = "light",
+    edges: bool = False,
+    **parameters: Any,
+) -> None:
+    r"""Write a picture of a scene at one instant; no window and no display are needed.
+
+    Args:
+        subject: a scene, an illustration or its class.
+        path: of the picture; it ends with .png. An old file stays until the new one is whole.
+        t: seconds.
+        size: width and height, pixels. Texts and lines grow with it, so that they are legible in a large picture too.
+        camera: the name of a camera in the scene, or a place of one's own: {"position": (x, y, z), "target": (x, y, z)}
+            with "up" and "fov" where need be. By default the first camera that is switched on, else a three-quarter
+            view that holds the scene over its times.
+        background: "light", "dark", or a colour.
+        edges: whether creases and borders are drawn as lines.
+        **parameters: a reader's values.
+
+    Raises:
+        UnknownNameError: the path ends with another format, or there is no such camera.
+        ShapeError: a size that is none, or a camera that is none.
+        EvaluationError: there is no OpenGL on this machine.
+        OSError: the file cannot be written.
+
+    >>> import tempfile
+    >>> import reactive4d as r4
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     render(r4.Scene(ball=r4.Sphere(color="crimson")), f"{folder}/ball.png", size=(320, 240))
+    ...     Path(f"{folder}/ball.png").read_bytes()[:4]
+    b'\x89PNG'
+    """
+    target = Path(path)
+    _check_format(target)
+    made = poster(subject, t=t, size=size, camera=camera, background=background, edges=edges, **parameters)
+    put(target, made)
+
+
+def poster(
+    subject: Any,
+    *,
+    t: float = 0.0,
+    size: tuple[int, int] = SIZE,
+    camera: Any = None,
+    background: str = "light",
+    edges: bool = False,
+    **parameters: Any,
+) -> bytes:
+    """The same picture as the bytes of a PNG file, for a page to carry.
+
+    >>> import reactive4d as r4
+    >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 20_000
+    True
+    """
+    from PIL import Image
+
+    from reactive4d_widgets.captions import captioned
+    from reactive4d_widgets.pictures import picture
+
+    width, height = _size(size)
+    paper = _paper(background)
+    frame, view = seen(subject, t, aspect=width / height, camera=camera, **parameters)
+    composition = composed(frame)
+    sky, lamps = light_of(frame.values(), view)
+    # Drawn larger and made smaller: smooth edges, of lines and letters too, on every card.
+    finer = 2 if max(width, height) * 2 <= LARGEST else 1
+    ratio = max(1.0, height / 600.0)
+    pixels = picture(
+        composition,
+        view,
+        size=(width * finer, height * finer),
+        paper=paper,
+        shader=shading(sky, lamps, inverse(view.matrix)),
+        stroke=2.0 * ratio * finer,
+        dot=8.0 * ratio * finer,
+        crease=1.2 * ratio * finer if edges else 0.0,
+    )
+    image: Any = Image.fromarray(pixels)
+    image = captioned(image, composition.labels, view, ratio=ratio * finer, paper=paper).reduce(finer)
+    file = io.BytesIO()
+    image.save(file, "PNG", optimize=True)
+    return file.getvalue()
+
+
+def seen(subject: Any, t: float, *, aspect: float, camera: Any = None, **parameters: Any) -> tuple[Frame, View]:
+    """What is seen of a subject at a time, and from where; arguments as those of `render`.
+
+    >>> import reactive4d as r4
+    >>> frame, view = seen(r4.Scene(ball=r4.Sphere()), 0.0, aspect=4 / 3)
+    >>> list(frame), view.fov
+    (['ball'], 30.0)
+    """
+    given = subject_of(subject)
+    if parameters:
+        given = given.moved({name: given.control(name).encode(value) for name, value in parameters.items()})
+    values = given.values
+    frame = given.scene.at(t, **values)
+    if camera is None and given.point.camera is not None:
+        camera = dict(zip(("position", "target"), given.point.camera, strict=True))
+    if camera is None:
+        found = camera_of(frame)
+        return frame, view_of(given.scene, *given.times, aspect=aspect, **values) if found is None else found
+    if isinstance(camera, str):
+        node = frame.get(camera)
+        names = [name for name, other in frame.items() if other.primitive == "camera"]
+        if node is None or node.primitive != "camera":
+            raise unknown(camera, names, what="camera")
+        return frame, camera_view(node)
+    return frame, camera if isinstance(camera, View) else _view(camera)
+
+
+def _view(camera: Any) -> View:
+    """A place that somebody gave."""
+    example = 'camera={"position": (5, -5, 3), "target": (0, 0, 0)}'
+    try:
+        given: dict[str, Any] = dict(camera)
+    except (TypeError, ValueError):
+        given = {}
+    if not {"position", "target"} <= given.keys() <= set(View.__slots__):
+        raise hint(ShapeError(f"camera: expected a name or a place, got {camera!r}"), example)
+    for name in ("position", "target", "up"):
+        if name in given:
+            given[name] = _three(given[name], name, example)
+    view = View(**given)
+    if not 0.0 < view.fov < 180.0:
+        raise hint(ShapeError(f"camera: fov: {view.fov!r} is no angle of view"), "between 0 and 180 degrees")
+    look_at(view.position, view.target, view.up)  # refuses what has no direction
+    return view
+
+
+def _three(value: Any, name: str, example: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = [float(number) for number in value]
+    except (TypeError, ValueError):
+        x = y = z = math.nan
+    if not all(map(math.isfinite, (x, y, z))):
+        raise hint(ShapeError(f"camera: {name}: expected three numbers, got {value!r}"), example)
+    return x, y, z
+
+
+def _size(size: Any) -> tuple[int, int]:
+    try:
+        width, height = [operator.index(number) for number in size]
+    except (TypeError, ValueError):
+        raise hint(ShapeError(f"size: expected two whole numbers, got {size!r}"), "size=(1280, 960)") from None
+    if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
+        raise hint(ShapeError(f"size: ({width}, {height}) is no size of a picture"), f"from 1 to {LARGEST} pixels each")
+    return width, height
+
+
+def _paper(background: str) -> tuple[float, float, float]:
+    red, green, blue, _ = color_of(PAPERS.get(background, background)).tolist()
+    return red, green, blue
+
+
+def _check_format(path: Path) -> None:
+    end = path.suffix.lower()
+    if end == ".png":
+        return
+    still = f"render({path.with_suffix('.png').name!r}, t=1.5)" if path.stem else "render('still.png', t=1.5)"
+    if end in FILMS:
+        page = path.with_suffix(".html").name
+        error = UnknownNameError(f"{path.name}: films come later")
+        raise hint(error, f"{still} makes a still of one instant, bake({page!r}) a page that moves")
+    if end in MODELS:
+        raise hint(UnknownNameError(f"{path.name}: models of scenes come later"), f"{still} makes a still")
+    what = f"no pictures that end with {end}" if end else "no pictures without an end of their name"
+    raise hint(UnknownNameError(f"{path.name}: {what}"), f"stills are PNG files: {still}")
