@@ -1,3 +1,18 @@
 /** The viewer of reactive4d. Everything that an adapter, a page or a test may use is exported here. */
 
+// core: no screen, runs everywhere
+export { BlobStore } from "./core/blobs.js";
+export { decode as decodeChunk } from "./core/chunks.js";
+export { Clock } from "./core/clock.js";
+export { conform } from "./core/conformance.js";
+export { Emitter } from "./core/emitters.js";
 export { WireError } from "./core/errors.js";
+export { compileTree, evaluate } from "./core/expressions.js";
+export { readManifest } from "./core/manifests.js";
+export { decode as decodePoint, encode as encodePoint } from "./core/point.js";
+export { Session } from "./core/session.js";
+export { ChannelStore } from "./core/store.js";
+export { compile } from "./core/tracks.js";
+
+// transports: who answers
+export { baked } from "./transports/baked.js";

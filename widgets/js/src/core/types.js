@@ -6,7 +6,8 @@
  */
 
 /** 32 hex digits: what an array is, whatever copy of it was sent. @typedef {string} Ref */
-/** A number, a truth value, a text, or a short list of numbers. @typedef {number|boolean|string|number[]|null} Value */
+/** A number, a truth value, a text, or a short list of numbers.
+ * @typedef {number|boolean|string|readonly number[]|null} Value */
 /** By parameter name; has no prototype. @typedef {Readonly<Record<string, Value>>} Parameters */
 /** JSON lists of numbers, or base64 of little-endian float64. @typedef {number[]|{f64: string}} WireNumbers */
 /** `[start, stop)`; null is an infinity. @typedef {[number|null, number|null]} WireInterval */
@@ -83,6 +84,8 @@
  * @property {"free"|"stops"|"fixed"} grade
  * @property {string} why it is fixed
  * @property {boolean} hidden
+ * @property {boolean} optional null is a value too
+ * @property {[number|null, number|null]|null} soft what a slider spans where bounds are open
  * @property {{bounds?: [Tree, Tree], constant?: Tree}|null} depends on other parameters
  *
  * @typedef {object} Handle
@@ -90,6 +93,7 @@
  * @property {string[]} parameters
  * @property {string} label
  * @property {"axis"|"plane"|"circle"} kind
+ * @property {string[]} axes of the world, in the order of the parameters; none of a circle
  *
  * @typedef {object} Eye a way to look: the default view, the reader's camera
  * @property {number[]} position
