@@ -11,14 +11,13 @@ from typing import Any
 import param
 
 from reactive4d.engine.frames import here
-from reactive4d.errors import EvaluationError, ParameterError, ShapeError, hint, unknown
+from reactive4d.errors import EvaluationError, ShapeError, hint, unknown
 from reactive4d.illustrations.axes import Driven
-from reactive4d.illustrations.kinds import declared, kind_of, path_of, refused_kind
+from reactive4d.illustrations.kinds import declared, in_order, kind_of, path_of, refused_kind
 from reactive4d.model.scenes import Scene
-from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import finished
 
-__all__ = ["Shared", "is_out_of_reach", "refuse_keeping", "refuse_signal", "refuse_value"]
+__all__ = ["Shared", "is_out_of_reach", "refuse_keeping", "refuse_value"]
 
 
 # One lock for all classes: builds are rare, and two that wait for each other would wait for ever.
@@ -50,10 +49,7 @@ class Shared:
     @property
     def axes(self) -> dict[str, Driven[Any]]:
         """The axes of all parameters that can be driven, by name."""
-        for name, parameter in declared(self.owner).items():
-            if name not in self._axes and kind_of(parameter) is not None:
-                self.axis(name)
-        return self._axes
+        return {name: self.axis(name) for name in in_order(self.owner)}
 
     def axis(self, name: str) -> Driven[Any]:
         """The axis of one parameter.
@@ -136,7 +132,7 @@ def refuse_value(reader: Any, name: str) -> None:
         error = EvaluationError(f"{path_of(parameter)} was read in the evaluation of {cell}, which is for all readers")
     if kind_of(parameter) is None:
         raise hint(
-            error, f"a {type(parameter).__name__} cannot be driven: what all readers share is a constant of the class"
+            error, f"the kind {type(parameter).__name__} cannot be driven: what all readers share is no parameter"
         )
     raise hint(error, f"self.signals.{name} is the parameter as a signal")
 
@@ -146,14 +142,6 @@ def refuse_keeping(reader: Any, name: str) -> None:
     if _desk.reader is reader and not _is_from_param():
         error = EvaluationError(f"{type(reader).__name__}.build() sets self.{name}, which other readers would not have")
         raise hint(error, "objects are found by name, self.scene['bob']; what is needed in build() alone is a variable")
-
-
-def refuse_signal(reader: Any, name: str, value: Signal[Any]) -> None:
-    """Raise if a signal is given to a parameter: a reader drives values."""
-    parameter = declared(type(reader)).get(name)
-    if parameter is not None:
-        error = ParameterError(f"{path_of(parameter)}: expected a value, got the signal {value.name}")
-        raise hint(error, "a reader gives values; build() makes the model depend on them")
 
 
 def _is_from_param() -> bool:

@@ -79,12 +79,10 @@ class Control:
         return self._sent(self.check(value))
 
     def _sent(self, plain: Any) -> Wire:
-        if self.options is None or plain is None:
-            return plain
-        for option, choice in zip(self.options, self.choices, strict=True):
+        for option, choice in zip(self.options or (), self.choices, strict=True):
             if choice is plain or choice == plain:
                 return option
-        return plain if _is_scalar(plain) else str(plain)
+        return plain if self.options is None or _is_scalar(plain) else str(plain)
 
     def decode(self, wire: Wire) -> Any:
         """The value that travelled.
@@ -92,10 +90,9 @@ class Control:
         Raises:
             ParameterError: the parameter does not admit it.
         """
-        if self.options is not None and wire is not None:
-            for option, choice in zip(self.options, self.choices, strict=True):
-                if type(option) is type(wire) and option == wire:
-                    return self.check(choice)
+        for option, choice in zip(self.options or (), self.choices, strict=True):
+            if type(option) is type(wire) and option == wire:
+                return self.check(choice)
         return self.check(tuple(wire) if isinstance(wire, list) else wire)  # pyright: ignore[reportUnknownArgumentType]
 
     def admit(self, wire: Wire) -> Wire:

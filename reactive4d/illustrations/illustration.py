@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import param
 
-from reactive4d.arrays import same
 from reactive4d.devices import device
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.illustrations.bookmarks import Bookmark, Look
-from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_signal, refuse_value
+from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_value
 from reactive4d.illustrations.controls import Control, control_of
 from reactive4d.illustrations.kinds import admitted, declared, kind_of
-from reactive4d.illustrations.settling import settle
+from reactive4d.illustrations.settling import settle, values_of
 from reactive4d.model.frames import Frame
 from reactive4d.model.reaches import as_times
 from reactive4d.model.scenes import Scene
@@ -110,10 +109,10 @@ class Illustration(param.Parameterized):
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         for name, value in vars(cls).items():
-            if isinstance(value, param.Parameter) and kind_of(value) is not None:
+            if isinstance(value, param.Parameter):
                 _refuse_taken(cls, name)
         own = vars(cls).get("times")
-        if own is not None and not isinstance(own, property | param.Parameter):
+        if own is not None and not isinstance(own, property):
             type.__setattr__(cls, "times", as_times(own, f"{cls.__name__}.times"))
         type.__setattr__(cls, "_shared", Shared(cls))
 
@@ -123,8 +122,8 @@ class Illustration(param.Parameterized):
         return super().__getattribute__(name)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if is_a(value, Signal):
-            refuse_signal(self, name, value)
+        if is_a(value, Signal) and name in (known := declared(type(self))) and kind_of(known[name]) is not None:
+            admitted(known[name], value)
         refuse_keeping(self, name)
         super().__setattr__(name, value)
 
@@ -176,29 +175,9 @@ class Illustration(param.Parameterized):
             UnknownNameError: there is no parameter of that name.
         """
         scene = self.scene
-        own = self.values(**parameters)
+        own = values_of(self, parameters)
         others = {name: value for name, value in parameters.items() if name not in own}
         return scene.at(t, **own, **others)
-
-    def values(self, **parameters: Any) -> dict[str, Any]:
-        """This reader's values of all parameters that can be driven, as signals answer them, by name.
-
-        Args:
-            **parameters: values in place of the reader's.
-
-        Raises:
-            ParameterError: a value that this reader cannot have.
-        """
-        axes = type(self)._shared.axes
-        mine = self.param.values()
-        known = declared(self)
-        found: dict[str, Any] = {}
-        for name, axis in axes.items():
-            axis.widen(known[name])
-            found[name] = admitted(known[name], parameters.get(name, mine[name]))
-            if name in parameters and known[name].constant and not same(found[name], mine[name]):
-                raise hint(ParameterError(f"Constant parameter {name!r} cannot be modified."), f"it is {mine[name]!r}")
-        return found
 
     @property
     def controls(self) -> tuple[Control, ...]:
@@ -220,21 +199,8 @@ class Illustration(param.Parameterized):
         if not isinstance(value, Bookmark):  # pyright: ignore[reportUnnecessaryIsInstance]
             error = ShapeError(f"point: expected a Bookmark, got {value!r}")
             raise hint(error, "of a link: r4.Bookmark.from_link(text, fig)")
-        self.settle(value.parameters)
+        settle(self, value.parameters)
         self._time, self._camera = value.time, value.camera
-
-    def settle(self, wires: Mapping[str, Any], *, strict: bool = True) -> None:
-        """Set several parameters, as they travel, where the bounds of one may depend on the value of another.
-
-        Args:
-            wires: values by name.
-            strict: whether what this reader cannot have is refused; else it is moved into the bounds, or left out.
-
-        Raises:
-            UnknownNameError: strict, and there is no parameter of that name.
-            ParameterError: strict, and a value is refused; then all is as before.
-        """
-        settle(self, wires, strict=strict)
 
     # -- devices ---------------------------------------------------------------------------------------------------
 
@@ -263,9 +229,9 @@ class Illustration(param.Parameterized):
 
 def _refuse_taken(cls: type, name: str) -> None:
     """Raise if a parameter has a name that means something else already."""
-    if name in ("t", "cam") or (name != "name" and hasattr(Illustration, name)):
+    if name in ("t", "cam", "serve") or (name != "name" and hasattr(Illustration, name)):
         error = ParameterError(f"{cls.__name__}.{name} cannot be a parameter: the name has a meaning of its own")
-        raise hint(error, "give it another one; `t` is the time, `cam` the camera of a link")
+        raise hint(error, f"such as {name}_; what is taken are `t`, `cam`, and what every illustration has")
 
 
 type.__setattr__(Illustration, "_shared", Shared(Illustration))

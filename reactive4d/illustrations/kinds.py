@@ -13,8 +13,20 @@ import param
 from reactive4d.errors import ParameterError, hint
 from reactive4d.signals.colors import color
 from reactive4d.signals.facade import Signal
+from reactive4d.signals.trees import is_a
 
-__all__ = ["DRIVEN", "Kind", "admitted", "choices_of", "declared", "hexadecimal", "kind_of", "path_of", "refused_kind"]
+__all__ = [
+    "DRIVEN",
+    "Kind",
+    "admitted",
+    "choices_of",
+    "declared",
+    "hexadecimal",
+    "in_order",
+    "kind_of",
+    "path_of",
+    "refused_kind",
+]
 
 Kind: TypeAlias = Literal["number", "integer", "boolean", "select", "color", "range", "xy"]
 
@@ -53,6 +65,25 @@ def declared(owner: Any) -> dict[str, Any]:
     return found
 
 
+def in_order(cls: Any) -> list[str]:
+    """The names of the parameters of a class that can be driven: by their precedence, then as they were written.
+
+    >>> class Pair(param.Parameterized):
+    ...     b = param.Number(1.0)
+    ...     a = param.Number(1.0)
+    ...     text = param.String("")
+    >>> in_order(Pair)
+    ['b', 'a']
+    """
+    known = declared(cls)
+    written: dict[str, None] = {}
+    for base in reversed(cls.__mro__):
+        names: list[str] = [*vars(base)]
+        written.update(dict.fromkeys([name for name in names if name in known]))
+    driven = [name for name in {**written, **known} if kind_of(known[name]) is not None]
+    return sorted(driven, key=lambda name: known[name].precedence or 0.0)
+
+
 def path_of(parameter: Any) -> str:
     """Where it is declared, for errors: `Pendulum.length`."""
     owner = getattr(parameter, "owner", None)
@@ -63,8 +94,8 @@ def path_of(parameter: Any) -> str:
 
 def refused_kind(parameter: Any) -> ParameterError:
     """The error for a parameter that cannot be driven."""
-    error = ParameterError(f"{path_of(parameter)}: a reader cannot drive a {type(parameter).__name__}")
-    return hint(error, f"{DRIVEN} can be driven; what is the same for all readers need not be a parameter")
+    error = ParameterError(f"{path_of(parameter)}: parameters of the kind {type(parameter).__name__} cannot be driven")
+    return hint(error, f"{DRIVEN} can; what is the same for all readers need not be a parameter")
 
 
 def admitted(parameter: Any, value: Any) -> Any:
@@ -86,8 +117,14 @@ def admitted(parameter: Any, value: Any) -> Any:
         raise refused_kind(parameter)
     if value is None and parameter.allow_None:
         return None
+    if is_a(value, Signal):
+        given: Any = value
+        error = ParameterError(f"{path_of(parameter)}: expected a value, got the signal {given.name}")
+        raise hint(error, "a reader gives values; build() makes the model depend on them")
     try:
         plain = _PLAIN[kind](parameter, value)
+    except ParameterError:
+        raise
     except (TypeError, ValueError, OverflowError):
         _validate(parameter, value)
         raise ParameterError(f"{path_of(parameter)}: {value!r} is no value of a {type(parameter).__name__}") from None
@@ -112,7 +149,7 @@ def _number(parameter: Any, value: Any) -> float:
 
 
 def _float(value: Any) -> float:
-    if isinstance(value, str | bytes | Signal) or callable(value):
+    if isinstance(value, str | bytes) or callable(value):
         raise TypeError
     return float(value) + 0.0  # -0.0 becomes 0.0
 
@@ -164,7 +201,7 @@ def _choice(parameter: Any, value: Any) -> Any:
         return found[0]
     if parameter.check_on_set:
         raise ValueError
-    if not isinstance(value, Hashable) or isinstance(value, Signal):
+    if not isinstance(value, Hashable):
         raise TypeError
     return value
 

@@ -1,4 +1,4 @@
-"""Settling: setting several parameters at once, where the bounds of one may depend on the value of another.
+"""Settling: what values a reader has, and how several are set where the bounds of one depend on the value of another.
 
 What is refused at first is tried again after the others were set: their watchers may have moved its bounds. So the
 order in which values come, from a link or from a page, does not count.
@@ -7,14 +7,44 @@ order in which values come, from a link or from a page, does not count.
 from collections.abc import Mapping
 from typing import Any
 
+from reactive4d.arrays import same
 from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
 from reactive4d.illustrations.controls import Control, control_of
-from reactive4d.illustrations.kinds import declared, kind_of
+from reactive4d.illustrations.kinds import admitted, declared, kind_of
 
-__all__ = ["settle", "twin"]
+__all__ = ["settle", "twin", "values_of"]
 
 MOST_ROUNDS = 3  # a watcher may set again what was set before it ran
 MOVED = ("bounds", "inclusive_bounds", "softbounds", "step", "constant", "precedence", "allow_None")
+
+
+def values_of(reader: Any, given: Mapping[str, Any], /) -> dict[str, Any]:
+    """A reader's values of all parameters that can be driven, as signals take them, by name.
+
+    Args:
+        reader: an illustration.
+        given: values in place of the reader's, for this once.
+
+    Raises:
+        ParameterError: a value that this reader cannot have.
+    """
+    axes: dict[str, Any] = reader._shared.axes
+    mine, known = reader.param.values(), declared(reader)
+    found: dict[str, Any] = {}
+    for name, axis in axes.items():
+        axis.widen(known[name])
+        found[name] = _admitted(known[name], mine[name]) if name not in given else admitted(known[name], given[name])
+        if name in given and known[name].constant and not same(found[name], admitted(known[name], mine[name])):
+            raise hint(ParameterError(f"Constant parameter {name!r} cannot be modified."), f"it is {mine[name]!r}")
+    return found
+
+
+def _admitted(parameter: Any, value: Any) -> Any:
+    """A value that a reader has already."""
+    try:
+        return admitted(parameter, value)
+    except ParameterError as error:
+        raise hint(error, "where bounds are moved away from a value, set it as well") from None
 
 
 def settle(reader: Any, wires: Mapping[str, Any], *, strict: bool = True) -> None:
@@ -39,7 +69,7 @@ def settle(reader: Any, wires: Mapping[str, Any], *, strict: bool = True) -> Non
     if problem is not None and strict:
         _tried(reader, before)
         raise problem
-    if problem is not None:
+    for _ in range(0 if problem is None else MOST_ROUNDS):
         for name, wire in wanted.items():
             control = _control(reader, name)
             try:

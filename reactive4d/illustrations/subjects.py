@@ -9,7 +9,7 @@ from reactive4d.errors import ParameterError, ShapeError, hint, unknown
 from reactive4d.illustrations.bookmarks import Bookmark
 from reactive4d.illustrations.controls import Control, control_of_axis
 from reactive4d.illustrations.illustration import Illustration
-from reactive4d.illustrations.settling import twin
+from reactive4d.illustrations.settling import settle, twin
 from reactive4d.model.handles import Handle, node_name
 from reactive4d.model.reaches import parameters_of
 from reactive4d.model.scenes import Scene
@@ -97,7 +97,7 @@ class Subject:
             # Values that came from outside are tried with a reader of their own: the bounds may depend on them.
             thing = twin(thing)
             names = {control.name for control in thing.controls}
-            thing.settle({name: wire for name, wire in own.items() if name in names}, strict=strict)
+            settle(thing, {name: wire for name, wire in own.items() if name in names}, strict=strict)
             own = {name: wire for name, wire in own.items() if name not in names}
         described = subject(thing)
         given = {**self.point.parameters, **described.point.parameters} if thing is not self.thing else {}
