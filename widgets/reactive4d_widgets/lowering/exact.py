@@ -56,14 +56,16 @@ def lower_matrix(
     return _track(lambda found: matrix_term(obj, found, above), parameters)
 
 
-def lower_paint(obj: Object, parameters: Mapping[str, Any] | None = None) -> Track | None:
-    """The colour of an object and how opaque it is as a track of four numbers, or None.
+def lower_paint(
+    obj: Object, parameters: Mapping[str, Any] | None = None, *, above: Sequence[Object] = ()
+) -> Track | None:
+    """The colour of an object and how opaque it is, within the groups above it, as a track of four numbers, or None.
 
     >>> import reactive4d as r4
     >>> lower_paint(r4.Sphere(color="red", opacity=0.5))
     {'kind': 'const', 'value': [1.0, 0.0, 0.0, 0.5]}
     """
-    return _track(lambda found: paint_term(obj, found), parameters)
+    return _track(lambda found: paint_term(obj, found, above), parameters)
 
 
 def lower_visible(

@@ -190,17 +190,40 @@ def visible_term(obj: Object, lowering: Lowering, above: Sequence[Object] = ()) 
     return term
 
 
-def paint_term(obj: Object, lowering: Lowering) -> Term:
-    """The colour of an object and how opaque it is: its settings, and the changes on top.
+def paint_term(obj: Object, lowering: Lowering, above: Sequence[Object] = ()) -> Term:
+    """The colour of an object and how opaque it is: its settings, the changes on top, and the groups above it.
 
     Raises:
         NotExactError: a user's own change of colour, or a setting that is not lowered.
     """
-    found = standings(obj.lane("paint"), lowering.parameters)
-    return over_times([found], lambda values: _painted(obj, values[0], lowering))
+    members = (obj, *above)
+
+    def painted(lanes: list[Any]) -> Term:
+        color, opaque = _painted(obj, lanes[0], lowering)
+        for group, lane in zip(above, lanes[1:], strict=True):
+            tint, share = _painted(group, lane, lowering)
+            opaque = times(opaque, times(component(tint, 3), share))
+        return _faded(color, opaque)
+
+    return over_times([standings(one.lane("paint"), lowering.parameters) for one in members], painted)
 
 
-def _painted(obj: Object, items: Sequence[Item], lowering: Lowering) -> Term:
+def _faded(color: Term, opaque: Term) -> Term:
+    """A colour whose alpha is multiplied by a share."""
+    if opaque.is_constant and opaque.value == 1.0:
+        return color
+    if not color.is_constant:
+        scale = applied("vec", *[constant(1.0)] * 3, opaque, shape=(4,))
+        return applied("*", color, scale, shape=(4,))
+    parts = [component(color, i) for i in range(4)]
+    alpha = times(parts[3], opaque)
+    if alpha.is_constant:
+        return constant(np.array([part.value for part in (*parts[:3], alpha)]))
+    return applied("vec", *parts[:3], alpha, shape=(4,))
+
+
+def _painted(obj: Object, items: Sequence[Item], lowering: Lowering) -> tuple[Term, Term]:
+    """The colour of an object, and by how much its alpha is multiplied."""
     color = lowering.of(obj.color)
     opacity: Term = constant(1.0)
     for item in items:
@@ -220,16 +243,7 @@ def _painted(obj: Object, items: Sequence[Item], lowering: Lowering) -> Term:
             opacity = value
         else:
             color = value
-    opaque = times(lowering.of(obj.opacity), opacity)
-    if opaque.is_constant and opaque.value == 1.0:
-        return color
-    if color.is_constant:
-        r, g, b, alpha = (component(color, i) for i in range(4))
-        if opaque.is_constant:
-            return constant(np.array([r.value, g.value, b.value, alpha.value * opaque.value]))
-        return applied("vec", r, g, b, times(alpha, opaque), shape=(4,))
-    scale = applied("vec", *[constant(1.0)] * 3, opaque, shape=(4,))
-    return applied("*", color, scale, shape=(4,))
+    return color, times(lowering.of(obj.opacity), opacity)
 
 
 CHANNELS: Final[dict[str, ChannelRule]] = {

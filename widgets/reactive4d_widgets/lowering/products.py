@@ -66,7 +66,9 @@ class Factor(NamedTuple):
         if self.inner is not None:
             return {"op": "matrix", "matrix": product_track(self.inner)}
         terms = {name: term for name, term in self.terms.items() if name != "center" or not is_zero(term)}
-        told = {"op": self.operation, **{name: track_of(term) for name, term in terms.items()}}
+        told: dict[str, Any] = {"op": self.operation, **{name: track_of(term) for name, term in terms.items()}}
+        if self.operation == "trs":
+            told.setdefault("stretch", None)
         return told | {"forward": self.forward} if self.forward not in ("", "-z") else told
 
 
