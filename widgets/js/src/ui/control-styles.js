@@ -38,11 +38,14 @@ export const controlStyles = `
 }
 
 /* The lines */
-.controls { display: grid; gap: 4px 28px; padding-top: 6px; margin-top: 4px; border-top: 1px solid var(--line); }
+.controls {
+  display: grid; gap: 4px 32px; align-items: start;
+  padding-top: 6px; margin-top: 4px; border-top: 1px solid var(--line);
+}
 @container (min-width: 40rem) { .controls { grid-template-columns: repeat(auto-fit, minmax(17rem, 1fr)); } }
 .control {
-  position: relative; display: grid; align-items: center; gap: 0 10px; min-width: 0; min-height: var(--target);
-  grid-template-columns: minmax(4.5rem, 7.5rem) minmax(0, 1fr) auto var(--target);
+  position: relative; display: grid; align-items: center; gap: 0 8px; min-width: 0; min-height: var(--target);
+  grid-template-columns: 6rem minmax(0, 1fr) minmax(4.6rem, auto) var(--target);
 }
 .control .name { overflow-wrap: anywhere; cursor: default; }
 .control > .field, .control > .pad { grid-column: 2 / -1; justify-self: start; display: flex; align-items: center;
@@ -54,16 +57,6 @@ export const controlStyles = `
 .control[data-kind="range"] > .amount { grid-column: 3 / -1; }
 .control .why { grid-column: 2 / -1; margin: -2px 0 4px; color: var(--soft); font-style: italic; }
 .control[data-closed] .name { color: var(--soft); }
-@container (max-width: 24rem) {
-  .control { grid-template-columns: minmax(0, 1fr) auto var(--target); }
-  .control .name { grid-column: 1 / -1; margin-bottom: -4px; }
-  .control > .slider, .control > .between, .control > .field, .control > .pad { grid-column: 1; }
-  .control > .field, .control > .pad, .control .why { grid-column: 1 / -1; }
-  .control > .amount { grid-column: 2; }
-  .control[data-kind="range"] > .amount { grid-column: 2 / -1; }
-  .control[data-kind="xy"] > .amount { grid-column: 1 / -1; justify-self: start; }
-  .control > .icon-button { grid-column: 3; }
-}
 .tip {
   position: absolute; left: 0; bottom: calc(100% - 2px); z-index: 4; max-width: min(100%, 22rem); padding: 5px 9px;
   background: var(--ink); color: var(--paper); border-radius: 4px; visibility: hidden; opacity: 0;
@@ -135,7 +128,27 @@ input[type="color"] {
   width: var(--thumb); height: var(--thumb); border-radius: 50%; border: 2px solid var(--accent);
     background: var(--raised);
 }
-.control[data-kind="xy"] { grid-template-columns: minmax(4.5rem, 7.5rem) auto minmax(0, 1fr); }
+.control[data-kind="xy"] { grid-template-columns: 6rem auto minmax(0, 1fr); }
 .control[data-kind="xy"] > .pad { grid-column: 2; }
-.control[data-kind="xy"] > .amount { grid-column: 3; justify-self: start; }
+.control[data-kind="xy"] > .amount {
+  grid-column: 3; justify-self: start; display: grid; gap: 2px; padding-left: 6px;
+}
+.pair { display: inline-flex; align-items: baseline; gap: 4px; }
+
+/* Narrow: the name and the number above, the slider below over the whole width */
+@container (max-width: 30rem) {
+  .control { grid-template-columns: minmax(0, 1fr) auto var(--target); padding-block: 3px; }
+  .control > .name { grid-row: 1; grid-column: 1; }
+  .control > .slider, .control > .between { grid-row: 2; grid-column: 1 / -1; }
+  .control > .amount { grid-row: 1; grid-column: 2; }
+  .control > .icon-button { grid-row: 1; grid-column: 3; }
+  .control:has(> .field) { grid-template-columns: auto minmax(0, 1fr); }
+  .control > .field { grid-row: 1; grid-column: 2; justify-self: end; }
+  .control[data-kind="range"] > .amount { grid-column: 2 / -1; }
+  .control[data-kind="xy"] { grid-template-columns: auto minmax(0, 1fr); }
+  .control[data-kind="xy"] > .name { grid-column: 1 / -1; }
+  .control[data-kind="xy"] > .pad { grid-column: 1; }
+  .control[data-kind="xy"] > .amount { grid-row: 2; grid-column: 2; }
+  .control .why, .none { grid-column: 1 / -1; }
+}
 `;

@@ -22,7 +22,7 @@ export const figureStyles = `
 
 /* The picture */
 .picture {
-  position: relative; overflow: hidden; border-radius: 4px; background: var(--wash);
+  position: relative; overflow: hidden; border-radius: 4px; background: var(--plate); border: 1px solid var(--line);
   height: var(--r4d-height, auto); aspect-ratio: 8 / 5; max-height: min(80vh, 46rem); width: 100%;
 }
 .picture > canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; touch-action: pan-y; }
@@ -100,8 +100,8 @@ select {
 .amount { display: inline-flex; align-items: baseline; gap: 3px; white-space: nowrap; color: var(--soft); }
 .typed {
   width: calc(var(--digits, 4) * 1ch + 12px); text-align: right; color: var(--ink); background: none; min-width: 0;
-  border: 1px solid transparent; border-bottom-color: var(--line); border-radius: 3px; padding: 3px 4px;
-  min-height: 26px;
+  border: 1px solid transparent; border-bottom-color: var(--line); border-radius: 3px; padding: 2px 4px;
+  min-height: 24px;
 }
 .typed:hover:not(:disabled) { border-color: var(--line); }
 .typed:focus { background: var(--raised); }
@@ -117,7 +117,12 @@ select {
 .play { color: var(--accent); border-color: var(--line); width: calc(var(--target) + 4px);
   height: calc(var(--target) + 4px); }
 .play .icon { width: 16px; height: 16px; }
-.speed { border-color: transparent; background: none; color: var(--soft); padding: 0 2px; }
+.unit.tight { margin-left: -6px; }
+.speed {
+  appearance: none; -webkit-appearance: none; border-color: transparent; background: none; color: var(--soft);
+  padding: 0 4px; text-align: center; min-width: var(--target); field-sizing: content; cursor: pointer;
+}
+.speed:hover { border-color: var(--line); color: var(--ink); }
 .scrub { position: relative; min-width: 0; }
 .strip { position: relative; height: 5px; margin: -5px calc(var(--thumb) / 2) 0; }
 .strip i {

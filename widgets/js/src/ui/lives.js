@@ -12,6 +12,7 @@ import { Announcer, parameterTexts, pictureText } from "./speech.js";
 
 /**
  * @typedef {import("../core/types.js").Manifest} Manifest
+ * @typedef {import("../core/types.js").Eye} Eye
  * @typedef {import("../core/types.js").Options} Options
  * @typedef {import("../core/types.js").Snapshot} Snapshot
  * @typedef {import("./picture.js").Hit} Hit
@@ -98,7 +99,10 @@ export class Life {
       reader.on("acted", () => this.announcer.say(() => this.#said())),
     );
     if (view) {
-      reader.watch({ own: () => view.own, look: (eye) => { if (eye) view.camera = eye; else view.follow(true); } });
+      reader.watch({
+        own: () => /** @type {Eye | null} */ (view.own),
+        look: (eye) => { if (eye) view.camera = eye; else view.follow(true); },
+      });
       this.#off.push(
         view.on("camera", () => { reader.looked(); this.handles.place(); this.#menuNow(); this.#label(); }),
         view.on("hover", (hit) => { if (!this.#selected) this.picture.hover(hit); }),

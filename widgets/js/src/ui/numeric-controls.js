@@ -15,6 +15,13 @@ import { TypedNumber } from "./typing.js";
  * @typedef {import("./limits.js").Allowed} Allowed
  */
 
+/** A unit behind a field; a degree sign stands close. @param {string} unit */
+export function unitOf(unit) {
+  const text = withUnit("", unit);
+  if (!unit) return null;
+  return make("span", { class: text.startsWith("\u202f") ? "unit" : "unit tight" }, [text.trim()]);
+}
+
 /** @param {Parameter} parameter @param {Reader} reader @returns {import("./rows.js").Control} */
 export function numberControl(parameter, reader) {
   const { name, label, unit } = parameter;
@@ -34,7 +41,7 @@ export function numberControl(parameter, reader) {
   });
   const typed = new TypedNumber(`${label}, as a number`, set);
   const play = button(`Play ${label}`, icon("play"), () => reader.toggle(name), { class: "icon-button small" });
-  const unitText = unit ? make("span", { class: "unit" }, [withUnit("", unit).trim()]) : null;
+  const unitText = unitOf(unit);
   const line = row(parameter, [
     slider.element, make("span", { class: "amount" }, [typed.element, unitText]), play,
   ], [slider.input, typed.element, play]);

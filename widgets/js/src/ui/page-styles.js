@@ -51,7 +51,7 @@ r4d-figure { display: block; }
 r4d-figure:not(:defined) .r4d-poster, .r4d-poster { display: block; width: 100%; height: auto; border-radius: 4px; }
 @media (min-width: 60rem) {
   figure.r4d, .r4d-page > r4d-figure { margin-inline: -5rem; }
-  figure.r4d figcaption { max-width: 34em; margin-inline: 5rem; }
+  figure.r4d figcaption { max-width: calc(34em / 0.9 * 1.0625); margin-inline: 5rem; }
 }
 @media print {
   :root, :root[data-theme] { ${LIGHT} --paper: #fff; }

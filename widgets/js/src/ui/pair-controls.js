@@ -3,6 +3,7 @@
 import { sideLimits } from "./axes.js";
 import { make, setAll } from "./elements.js";
 import { stepped, withUnit } from "./formats.js";
+import { unitOf } from "./numeric-controls.js";
 import { row } from "./rows.js";
 import { fit, keyed } from "./stepping.js";
 import { Slider } from "./sliders.js";
@@ -48,7 +49,7 @@ export function rangeControl(parameter, reader) {
   }));
   const track = make("div", { class: "between" }, ends.map((end) => end.slider.element));
   const amount = make("span", { class: "amount" }, [
-    ends[0].typed.element, "–", ends[1].typed.element, unit ? make("span", { class: "unit" }, [unit]) : null,
+    ends[0].typed.element, "–", ends[1].typed.element, unitOf(unit),
   ]);
   const fields = ends.flatMap((end) => [end.slider.input, end.typed.element]);
   const line = row(parameter, [track, amount], fields, { group: true });
@@ -118,7 +119,8 @@ export function padControl(parameter, reader) {
     set(i === 0 ? [x, now[1]] : [now[0], x], act);
   }));
   const amount = make("span", { class: "amount" }, [
-    "x", typed[0].element, "y", typed[1].element, unit ? make("span", { class: "unit" }, [unit]) : null,
+    make("span", { class: "pair" }, ["x", typed[0].element, unitOf(unit)]),
+    make("span", { class: "pair" }, ["y", typed[1].element, unitOf(unit)]),
   ]);
   const line = row(parameter, [pad, amount], [thumb, ...typed.map((t) => t.element)], { group: true });
   return {
