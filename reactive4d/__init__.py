@@ -19,7 +19,7 @@ from reactive4d.errors import (
 )
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.rays import Hits
-from reactive4d.illustrations import Bookmark, Illustration
+from reactive4d.illustrations import Bookmark, Figure, Illustration, Page
 from reactive4d.intervals import FOREVER, Interval, IntervalSet
 from reactive4d.model.changes import Become, Change, Coloring, Deformation, Mapping, Note, Reshape, Transform
 from reactive4d.model.colorings import Color, Opacity, Shade, Texture
@@ -90,6 +90,7 @@ __all__ = [
     "EvaluationError",
     "Event",
     "Extrude",
+    "Figure",
     "Flag",
     "Float",
     "Frame",
@@ -129,6 +130,7 @@ __all__ = [
     "Orient",
     "Outline",
     "Outlines",
+    "Page",
     "PageTooLargeError",
     "Paint",
     "Parameter",

@@ -3,6 +3,7 @@
 from reactive4d.illustrations.bookmarks import Bookmark
 from reactive4d.illustrations.controls import Control
 from reactive4d.illustrations.illustration import Illustration
+from reactive4d.illustrations.pages import Figure, Page
 from reactive4d.illustrations.subjects import Subject, subject
 
-__all__ = ["Bookmark", "Control", "Illustration", "Subject", "subject"]
+__all__ = ["Bookmark", "Control", "Figure", "Illustration", "Page", "Subject", "subject"]
