@@ -86,3 +86,17 @@ export function limitsOf(reader, { parameter, index }) {
   const limits = reader.allowed(parameter);
   return index === null ? limits : sideLimits(parameter, limits, index);
 }
+
+/**
+ * The stops round where one is, at most 64 places: what has to be known before a handle can go from one to another.
+ * @param {readonly { value: number, stops: readonly number[] | null }[]} axes
+ * @returns {number[][]} one number for each axis; none if no axis has stops
+ */
+export function surroundings(axes) {
+  if (!axes.some(({ stops }) => stops?.length)) return [];
+  const most = Math.max(2, Math.floor(64 ** (1 / axes.length)));
+  return axes.reduce((places, { value, stops }) => {
+    const near = [...(stops ?? [value])].sort((a, b) => Math.abs(a - value) - Math.abs(b - value)).slice(0, most);
+    return places.flatMap((place) => near.map((stop) => [...place, stop]));
+  }, /** @type {number[][]} */ ([[]]));
+}

@@ -1,6 +1,6 @@
 /** Handles on the picture: grips that one drags, with the pointer or by keys, to set parameters. */
 
-import { axesOf, limitsOf, valueOf, withValues } from "./axes.js";
+import { axesOf, limitsOf, surroundings, valueOf, withValues } from "./axes.js";
 import { make, setAll } from "./elements.js";
 import { solve } from "./solving.js";
 import { fit, keyed } from "./stepping.js";
@@ -15,6 +15,7 @@ import { valueText } from "./speech.js";
  * @typedef {object} Scenery where things are
  * @property {(node: string, parameters: Parameters) => [number, number, number] | null} where
  * @property {(p: [number, number, number]) => { x: number, y: number, depth: number }} project CSS pixels
+ * @property {(node: string, parameters: Parameters[]) => void} learn ask where a node would stand
  */
 
 export class Handles {
@@ -34,6 +35,7 @@ export class Handles {
       if (axes.length > 1) setAll(grip, { "aria-roledescription": "two-way handle" });
       const held = { handle, axes, grip };
       listen(grip, held, this.#drag.bind(this));
+      grip.addEventListener("focus", () => this.#learn(held));
       grip.addEventListener("keydown", (event) => this.#pressed(event, held));
       return held;
     }).filter(({ axes }) => axes.length > 0);
@@ -82,6 +84,19 @@ export class Handles {
     if (!found) return;
     const numbers = found.map((x, i) => fit(x, { ...limits[i], step: limits[i].step / 10 }, { coarse: true }));
     this.#reader.change({ parameters: withValues(parameters, axes, numbers) }, { gesture });
+  }
+
+  /**
+   * Where the node stands at other stops is asked for as soon as a handle is taken.
+   * @param {{ handle: Handle, axes: Axis[] }} held
+   */
+  #learn({ handle, axes }) {
+    const { parameters } = this.#reader.session.point;
+    const others = surroundings(axes.map((axis) => ({
+      value: valueOf(parameters, axis), stops: limitsOf(this.#reader, axis).stops,
+    }))).map((numbers) => ({ ...parameters, ...withValues(parameters, axes, numbers) }));
+    const unknown = others.filter((there) => this.#scenery.where(handle.node, there) === null);
+    if (unknown.length) this.#scenery.learn(handle.node, unknown);
   }
 
   /** @param {KeyboardEvent} event @param {{ axes: Axis[], grip: HTMLElement }} held */

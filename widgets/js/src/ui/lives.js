@@ -14,6 +14,7 @@ import { Announcer, parameterTexts, pictureText } from "./speech.js";
  * @typedef {import("../core/types.js").Manifest} Manifest
  * @typedef {import("../core/types.js").Eye} Eye
  * @typedef {import("../core/types.js").Options} Options
+ * @typedef {import("../core/types.js").Parameters} Parameters
  * @typedef {import("../core/types.js").Snapshot} Snapshot
  * @typedef {import("./picture.js").Hit} Hit
  *
@@ -60,6 +61,7 @@ export class Life {
     this.handles = new Handles(this.reader, {
       where: (node, parameters) => this.#where(node, parameters),
       project: (p) => this.view?.project(p) ?? { x: 0, y: 0, depth: NaN },
+      learn: (node, others) => this.#learn(node, others),
     });
     this.picture.over.append(this.handles.element);
     this.element = make("div", { class: "life" }, [
@@ -190,6 +192,13 @@ export class Life {
     if (!value || typeof value !== "object") return null;
     const m = /** @type {ArrayLike<number>} */ (value);
     return [m[3], m[7], m[11]];
+  }
+
+  /** Ask where a node stands for other parameters. @param {string} node @param {Parameters[]} others */
+  #learn(node, others) {
+    const { session } = this.#parts;
+    const learn = /** @type {any} */ (session).learn;
+    learn?.call(session, [`${node}#matrix`], others.map((parameters) => ({ parameters })));
   }
 
   /** @param {Hit | null} hit */

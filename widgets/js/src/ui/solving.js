@@ -17,6 +17,8 @@
 
 const ITERATIONS = 12;
 const ENOUGH = 0.05; // pixels
+const FAR = 8; // pixels
+const SCAN = 64;
 
 /**
  * The values that bring the point nearest to the target: Gauss–Newton with Levenberg's damping on finite differences,
@@ -32,11 +34,31 @@ export function solve(freedoms, place, target) {
   const free = freedoms.flatMap((f, i) => (f.stops?.length ? [] : [i]));
   let values = start;
   if (free.length) values = descend(freedoms, free, place, target, values);
+  if (freedoms.length === 1 && free.length === 1) values = [elsewhere(freedoms[0], place, target, values[0])];
   if (free.length < freedoms.length) {
     values = hop(freedoms, place, target, values);
     if (free.length) values = descend(freedoms, free, place, target, values);
   }
   return place(values) === null ? null : values;
+}
+
+/**
+ * A path that winds may come near the pointer elsewhere than downhill from here; taken if that is half as far or less.
+ * @param {Freedom} freedom
+ * @param {Place} place
+ * @param {readonly [number, number]} target
+ * @param {number} here
+ */
+function elsewhere(freedom, place, target, here) {
+  const { lo, hi } = freedom;
+  const error = distance(place([here]), target);
+  if (lo === null || hi === null || error < FAR ** 2) return here;
+  const scanned = Array.from({ length: SCAN + 1 }, (_, k) => lo + ((hi - lo) * k) / SCAN);
+  const errors = scanned.map((x) => distance(place([x]), target));
+  const least = Math.min(...errors);
+  if (!(least < error)) return here;
+  const [found] = descend([freedom], [0], place, target, [scanned[errors.indexOf(least)]]);
+  return distance(place([found]), target) <= error / 4 ? found : here;
 }
 
 /**

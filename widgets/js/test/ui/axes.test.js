@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { axesOf, sideLimits, valueOf, withValues } from "../../src/ui/axes.js";
+import { axesOf, sideLimits, surroundings, valueOf, withValues } from "../../src/ui/axes.js";
 import { allowed } from "../../src/ui/limits.js";
 import { parameter } from "./makings.js";
 
@@ -20,6 +20,14 @@ test("a handle moves numbers and both sides of a pair, and nothing else", () => 
   assert.deepEqual(axes.map((axis) => valueOf(now, axis)), [1, 2, 3]);
   assert.deepEqual(withValues(now, axes, [4, 5, 6]), { px: 4, place: [5, 6] });
   assert.deepEqual(now.place, [2, 3]);
+});
+
+test("a handle knows the stops around it, nearest first, and no more than it can ask for", () => {
+  assert.deepEqual(surroundings([{ value: 1, stops: [0, 1, 2.5] }]), [[1], [0], [2.5]]);
+  assert.deepEqual(surroundings([{ value: 1, stops: [1, 2] }, { value: 7, stops: null }]), [[1, 7], [2, 7]]);
+  assert.deepEqual(surroundings([{ value: 1, stops: null }]), []);
+  const many = Array.from({ length: 100 }, (_, i) => i);
+  assert.equal(surroundings([{ value: 0, stops: many }, { value: 0, stops: many }]).length, 64);
 });
 
 test("each side of a baked pair has its own stops", () => {

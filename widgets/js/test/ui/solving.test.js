@@ -37,6 +37,12 @@ test("on a circle, dragging by small moves goes all the way round", () => {
   }
 });
 
+test("where the path comes much nearer to the pointer elsewhere, it goes there", () => {
+  const place = (/** @type {number[]} */ [x]) => /** @type {[number, number]} */ ([100 * Math.cos(3 * x), 40 * x]);
+  const goal = place([2 * Math.PI / 3 + 0.1]);
+  near(solve([freedom(0, { lo: 0, hi: 4 })], place, goal) ?? [], [2 * Math.PI / 3 + 0.1]);
+});
+
 test("bounds hold, and the other freedom goes on alone", () => {
   const place = (/** @type {number[]} */ [x, y]) => /** @type {[number, number]} */ ([10 * x + 2 * y, 10 * y]);
   const found = solve([freedom(0, { hi: 1 }), freedom(0)], place, [80, 50]) ?? [];
