@@ -73,20 +73,22 @@ class Asker:
         self.stops = dict(stops)
         self.advance = advance
         self.asks = 0
-        self.axes: dict[str, Any] = {}  # parameters that were read by anybody
+        self._last: dict[Signal[Any], Answer] = {}
 
     def ask(self, signal: Signal[Any], t: float, assigned: Values | None = None) -> Answer:
-        """One ask, with some parameters at other values than in `base`."""
+        """What a signal says, with some parameters at other values than in `base`; not asked again where it holds."""
+        given = {**self.base, **assigned} if assigned else self.base
+        last = self._last.get(signal)
+        if last is not None and t in last.interval and all(given.get(n) == v for n, v in last.parameters.items()):
+            return last
         self.asks += 1
         if self.advance is not None:
             self.advance()
-        given = {**self.base, **assigned} if assigned else self.base
         try:
             found = answer(signal, t, **given)
         except Reactive4dError as error:  # a cycle: which is no answer, but no reason to give up a page
             return Answer(None, error, Interval.instant(t), {}, ())
-        for axis in found.axes:
-            self.axes.setdefault(axis.name, axis)
+        self._last[signal] = found
         return found
 
     def branches(self, found: Values | Any, assigned: Values) -> str | None:

@@ -1,0 +1,153 @@
+"""Estimates: how large a page will be, found out from a few ticks before all are asked."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from reactive4d.errors import PageTooLargeError, hint
+from reactive4d_widgets.channels import Channel
+from reactive4d_widgets.chunks import encode, extent
+from reactive4d_widgets.coverings import Coverer
+from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.stores import measured
+
+__all__ = ["Share", "estimated", "refuse_if_too_large", "too_large"]
+
+PROBES = 5
+NAME = 70  # bytes of a reference, where the array is named and where it is used
+ROWS = 12  # of the table
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """What one channel takes.
+
+    Attributes:
+        channel: its name.
+        cells: for how many combinations of parameter values.
+        ticks: at how many ticks of each.
+        size: bytes in all.
+    """
+
+    channel: str
+    cells: int
+    ticks: int
+    size: int
+
+    @property
+    def asks(self) -> int:
+        """How often it will be asked."""
+        return self.cells * self.ticks
+
+
+def estimated(plan: Plan, coverer: Coverer) -> list[Share]:
+    """What the channels will take that carry arrays; all others take next to nothing."""
+    found: list[Share] = []
+    seen: set[int] = set()
+    for channel in plan.channels:
+        if channel.is_array and channel.seat is not None and coverer.is_ever_seen(channel.seat):
+            share = _share(plan, coverer, channel, seen)
+            if share is not None:
+                found.append(share)
+    return found
+
+
+def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Share | None:
+    asker, span = plan.asker, plan.span
+    gate = coverer.gate(channel)
+    ticks = [t for t in span if gate is None or gate(t)] if gate is not None else list(span)
+    few = [ticks[round(i * (len(ticks) - 1) / (PROBES - 1))] for i in range(PROBES)] if len(ticks) > PROBES else ticks
+    reads: dict[str, None] = {}
+    values: list[Any] = []
+    moving = 0
+    for t in few:
+        answer = asker.ask(channel.signal, t)
+        reads.update(dict.fromkeys(answer.parameters))
+        moving += answer.interval.stop - t < span.step
+        if answer.error is None and answer.value is not None:
+            values.append(answer.value)
+        if answer.interval.stop > span.stop:
+            break
+    cells = math.prod([len(asker.stops[name]) for name in reads if name in asker.stops])
+    if not values:
+        return None
+    count = max(1, round(len(ticks) * moving / len(few))) if moving else 1
+    if not moving and cells == 1:
+        # Things that stand still may share their arrays; those are counted once.
+        if id(values[0]) in seen:
+            return None
+        seen.add(id(values[0]))
+    first = _bytes([_arrays(channel, values[0])])
+    each = first
+    if len(values) > 1:
+        # Two samples that are far from each other differ by more than two ticks do: that errs to the safe side.
+        each = max(_bytes([_arrays(channel, value) for value in values[:2]]) - first, first // 20)
+    return Share(channel.name, cells, count, cells * (first + each * (count - 1)))
+
+
+def _arrays(channel: Channel, value: Any) -> list[Any]:
+    if channel.what == "topology":
+        return [np.asarray(part, dtype=np.uint32) for part in value[:1] if part is not None] * 2  # faces, and edges
+    return [np.asarray(value, dtype=np.float32)]
+
+
+def _bytes(several: list[list[Any]]) -> int:
+    """How many bytes some arrays take, packed together if they are of one shape."""
+    size = 0
+    for alike in zip(*several, strict=False):
+        arrays = [array for array in alike if array.size]
+        if not arrays:
+            continue
+        size += NAME * len(arrays)
+        if arrays[0].dtype.kind == "f" and all(array.shape == arrays[0].shape for array in arrays):
+            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=extent(arrays)))
+        else:
+            size += sum(measured(encode([array], refs=[""])) for array in arrays)
+    return size
+
+
+def refuse_if_too_large(shares: Iterable[Share], limit: float, *, besides: int = 0) -> None:
+    """Refuse a page that will be larger than it may.
+
+    Args:
+        shares: what the channels will take.
+        limit: bytes.
+        besides: bytes of all else: the viewer, the text.
+
+    Raises:
+        PageTooLargeError: with a table.
+    """
+    listed = list(shares)
+    total = sum(share.size for share in listed) + besides
+    if total > limit:
+        raise too_large(total, limit, [(s.channel, f"{s.cells} x {s.ticks}", s.size) for s in listed], about="about ")
+
+
+def too_large(size: int, limit: float, rows: Iterable[tuple[str, str, int]], *, about: str = "") -> PageTooLargeError:
+    """The error for a page of this size, with a table of what takes the bytes: channel, cells x ticks, bytes.
+
+    >>> print(too_large(3_000_000, 2_000_000, [("a#points", "1 x 60", 2_900_000), ("b#points", "1 x 1", 900)]))
+    the page would take 3.0 MB, more than its limit of 2.0 MB
+      channel   cells x ticks    size
+      a#points         1 x 60  2.9 MB
+      b#points          1 x 1   900 B
+    """
+    ordered = sorted(rows, key=lambda row: -row[2])
+    shown = [("channel", "cells x ticks", "size"), *[(name, count, _told(n)) for name, count, n in ordered[:ROWS]]]
+    if len(ordered) > ROWS:
+        shown.append((f"{len(ordered) - ROWS} more", "", _told(sum(n for _, _, n in ordered[ROWS:]))))
+    widths = [max(len(row[i]) for row in shown) for i in range(3)]
+    lines = [f"  {a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}" for a, b, c in shown]
+    message = f"the page would take {about}{_told(size)}, more than its limit of {_told(limit)}"
+    error = PageTooLargeError("\n".join([message, *lines]), size=int(size), limit=int(limit))
+    return hint(error, "fewer times, fewer values of a parameter, a coarser surface, or a larger `limit` (bytes)")
+
+
+def _told(size: float) -> str:
+    """Bytes for a person to read."""
+    if size >= 1e6:
+        return f"{size / 1e6:.1f} MB"
+    return f"{size / 1e3:.1f} KB" if size >= 1e3 else f"{size:.0f} B"

@@ -1,0 +1,83 @@
+"""Grades: what a reader may do with a parameter on a page without a server.
+
+**free**: any value; everything that reads the parameter is evaluated in the viewer, or was checked to be right
+between the baked values. **stops**: the baked values. **fixed**: the one value that the page was made for; the control
+is shown, disabled, and says what would have to be computed again.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from reactive4d.illustrations.controls import Control
+from reactive4d_widgets.coverings import Segment
+from reactive4d_widgets.sweeps import Asker
+
+__all__ = ["Readers", "described", "readers_of"]
+
+# By parameter: the channels that read it other than exactly.
+Readers = Mapping[str, Sequence[str]]
+
+_PARTS = {
+    "points": "the shape",
+    "topology": "the surface",
+    "paints": "the colours",
+    "color": "the colour",
+    "matrix": "the place",
+    "visible": "whether there is",
+    "drawn": "what is drawn",
+    "text": "the text",
+}
+SEVERAL = 3
+
+
+def readers_of(segments: Sequence[Segment]) -> dict[str, list[str]]:
+    """Which channels read which parameters other than exactly, in their order."""
+    found: dict[str, list[str]] = {}
+    for segment in segments:
+        for name in segment.where:
+            channels = found.setdefault(name, [])
+            if segment.channel not in channels:
+                channels.append(segment.channel)
+    return found
+
+
+def described(control: Control, segments: Sequence[Segment], asker: Asker, readers: Readers) -> dict[str, Any]:
+    """What a page knows of a parameter: its description, its grade and its stops."""
+    found = control.description()
+    name = control.name
+    used = readers.get(name, ())
+    if control.constant or not used:
+        return found
+    stops = asker.stops.get(name)
+    if stops is None or len(stops) == 1:
+        return {**found, "grade": "fixed", "why": _why(control, asker.base[name], used)}
+    travelling = [_listed(control.encode(stop)) for stop in stops]
+    if all(name in segment.blend for segment in segments if name in segment.where):
+        return {**found, "grade": "free", "stops": travelling, "bounds": [min(travelling), max(travelling)]}
+    return {**found, "grade": "stops", "stops": travelling}
+
+
+def _listed(wire: Any) -> Any:
+    return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
+
+
+def _why(control: Control, value: Any, channels: Sequence[str]) -> str:
+    """A sentence for the reader, which names what would have to be computed again."""
+    shown = control.text(control.encode(value)) + (f" {control.unit}" if control.unit else "")
+    parts: dict[str, list[str]] = {}
+    for channel in channels:
+        node, _, what = channel.rpartition("#")
+        key = what.removeprefix("values.") if what.startswith("values.") else _PARTS.get(what, "the settings")
+        parts.setdefault(key, []).append(node)
+    told = [_told(part, [node for node in nodes if node]) for part, nodes in parts.items()]
+    listed = " and ".join(told[:SEVERAL]) + (" and more" if len(told) > SEVERAL else "")
+    label = control.label.lower()
+    return f"This page holds {label} = {shown} only; for other values {listed} would need a live kernel."
+
+
+def _told(part: str, nodes: Sequence[str]) -> str:
+    if not nodes:
+        return part
+    more = len(nodes) - SEVERAL
+    names = ", ".join(nodes[:SEVERAL]) + (f" and {more} more" if more > 0 else "")
+    return f"{part} of {names}"

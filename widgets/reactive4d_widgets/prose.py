@@ -1,0 +1,284 @@
+r"""Prose: Markdown with numbers, links, words and figures in it, made HTML.
+
+`{length:.2f}` is a number, `[text](#length=2&t=1)` a link to a point, `[the bob](#bob)` a word that highlights an
+object, `![caption](pendulum)` a figure. Each belongs to the figure that it names, `{pendulum.length}`, else to the last
+one before it that knows the name, else to the first one that does. Braces that mean nothing of the kind are written
+`\{`. HTML in the text is text.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
+from urllib.parse import unquote
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+
+from reactive4d.errors import Reactive4dError, ShapeError, UnknownNameError, hint, unknown
+
+__all__ = ["Cast", "Written", "written"]
+
+_NUMBER = re.compile(r"\{\s*([^\W\d][\w-]*(?:\.[^\W\d]\w*)?)\s*(?::([^{}\n]*))?\}")
+_FOLLOW = re.compile(r"follow\s+([^\W\d][\w-]*)")
+
+
+@dataclass(frozen=True, slots=True)
+class Cast:
+    """What the prose may name of a figure.
+
+    Attributes:
+        name: the figure's.
+        numbers: parameters and values: from a format to how it reads where the page opens.
+        parameters: the names of those that are driven.
+        nodes: names of objects.
+        block: from a caption (HTML) and the name of a figure to follow to the figure as HTML.
+    """
+
+    name: str
+    numbers: Mapping[str, Callable[[str], str]]
+    parameters: frozenset[str]
+    nodes: frozenset[str]
+    block: Callable[[str, str | None], str]
+
+
+@dataclass(slots=True)
+class Written:
+    """Prose as HTML.
+
+    Attributes:
+        html: of the body.
+        title: the text of the first heading of the first rank; None without one.
+        placed: the names of the figures that stand in it.
+    """
+
+    html: str
+    title: str | None = None
+    placed: list[str] = field(default_factory=list[str])
+
+
+def written(text: str, casts: Iterable[Cast]) -> Written:
+    r"""Make HTML of a page's prose.
+
+    Args:
+        text: Markdown.
+        casts: the figures.
+
+    Raises:
+        UnknownNameError: it names what no figure knows.
+        ShapeError: a figure stands in the middle of a sentence, or stands twice.
+
+    >>> print(written("# A ball\n\n2 < 3 & \\{x}", []).html)
+    <h1 id="a-ball">A ball</h1>
+    <p>2 &lt; 3 &amp; {x}</p>
+    """
+    composer = _Composer({cast.name: cast for cast in casts})
+    return composer.compose(text)
+
+
+class _Composer:
+    """Reads one text."""
+
+    def __init__(self, casts: Mapping[str, Cast]) -> None:
+        self.casts = casts
+        self.order: list[str] = []  # figures that were placed so far
+        self.slugs: dict[str, int] = {}
+        self.markdown = MarkdownIt("commonmark", {"html": False, "typographer": True})
+        self.markdown.enable(["table", "strikethrough", "replacements", "smartquotes"])
+        self.markdown.inline.ruler.after("escape", "number", _number)
+        for name in ("number", "figure", "opening", "closing"):
+            self.markdown.add_render_rule(name, _shown)
+
+    def compose(self, text: str) -> Written:
+        env: dict[str, Any] = {}
+        tokens = self.markdown.parse(text, env)
+        made = Written("")
+        for i, token in enumerate(tokens):
+            if token.type == "heading_open":
+                content = tokens[i + 1]
+                title = _plain(content.children or [])
+                token.attrSet("id", self._slug(title))
+                if token.tag == "h1" and made.title is None:
+                    made.title = title
+        made_of: list[Token] = []
+        i = 0
+        while i < len(tokens):
+            token = tokens[i]
+            figure = self._alone(tokens, i)
+            if figure is not None:
+                made_of.append(self._figure(figure, env))
+                i += 3
+                continue
+            if token.type == "inline":
+                token.children = self._inline(token.children or [])
+            made_of.append(token)
+            i += 1
+        made.html = self.markdown.renderer.render(made_of, self.markdown.options, env).rstrip("\n")
+        made.placed = list(self.order)
+        return made
+
+    def _slug(self, title: str) -> str:
+        """A name for a heading, each once."""
+        base = re.sub(r"[^\w]+", "-", title.lower()).strip("-") or "section"
+        count = self.slugs[base] = self.slugs.get(base, 0) + 1
+        return base if count == 1 else f"{base}-{count}"
+
+    # -- figures ---------------------------------------------------------------------------------------------------
+
+    def _alone(self, tokens: Sequence[Token], i: int) -> Token | None:
+        """The image that is all of a paragraph, if it names a figure."""
+        if tokens[i].type != "paragraph_open" or i + 2 >= len(tokens):
+            return None
+        inside = [part for part in tokens[i + 1].children or [] if part.type != "text" or part.content.strip()]
+        if len(inside) != 1 or inside[0].type != "image":
+            return None
+        return inside[0] if self._is_figure(inside[0]) else None
+
+    def _is_figure(self, image: Token) -> bool:
+        source = unquote(str(image.attrGet("src") or ""))
+        if source in self.casts:
+            return True
+        if source.startswith("data:image/"):
+            return False
+        raise unknown(source, self.casts, what="figure")
+
+    def _figure(self, image: Token, env: dict[str, Any]) -> Token:
+        name = unquote(str(image.attrGet("src")))
+        if name in self.order:
+            error = ShapeError(f"the figure {name!r} stands twice on the page")
+            raise hint(error, f'give it another name: Page(text, {name}=…, again=…), ![](again "follow {name}")')
+        self.order.append(name)
+        title = str(image.attrGet("title") or "")
+        follow = _FOLLOW.fullmatch(title.strip())
+        if title.strip() and follow is None:
+            error = ShapeError(f'![…]({name} "{title}"): expected "follow …"')
+            raise hint(error, 'as in ![…](twin "follow pendulum")')
+        if follow is not None and follow[1] not in self.casts:
+            raise unknown(follow[1], self.casts, what="figure")
+        caption = self.markdown.renderer.render(self._inline(image.children or []), self.markdown.options, env)
+        return _token("figure", self.casts[name].block(caption, None if follow is None else follow[1]) + "\n")
+
+    # -- what stands in a sentence ---------------------------------------------------------------------------------
+
+    def _inline(self, tokens: Sequence[Token]) -> list[Token]:
+        made: list[Token] = []
+        closing: list[Token | None] = []
+        for token in tokens:
+            if token.type == "number":
+                made.append(_token("number", self._number(token)))
+            elif token.type == "image" and self._is_figure(token):
+                error = ShapeError(f"the figure {token.attrGet('src')!r} stands in the middle of a sentence")
+                raise hint(error, "give it a paragraph of its own")
+            elif token.type == "link_open":
+                pair = self._link(str(token.attrGet("href") or ""))
+                if pair is None and not str(token.attrGet("href") or "").startswith("#"):
+                    token.attrSet("rel", "noopener noreferrer")
+                made.append(token if pair is None else _token("opening", pair[0]))
+                closing.append(None if pair is None else _token("closing", pair[1]))
+            elif token.type == "link_close":
+                made.append(closing.pop() or token)
+            else:
+                made.append(token)
+        return made
+
+    def _number(self, token: Token) -> str:
+        name, spec = token.meta["name"], token.meta["spec"]
+        cast, name = self._owner(name, lambda cast: cast.numbers, what="parameter or value")
+        try:
+            shown = cast.numbers[name](spec)
+        except ValueError as error:
+            raise hint(ShapeError(f"{{{name}:{spec}}}: {error}"), "a format as in f-strings: {length:.2f}") from None
+        form = f' format="{escape(spec)}"' if spec else ""
+        return f'<r4d-number figure="{escape(cast.name)}" name="{escape(name)}"{form}>{escape(shown)}</r4d-number>'
+
+    def _link(self, address: str) -> tuple[str, str] | None:
+        """What stands for a link to a point, or for a word that is about an object; None for any other link."""
+        if not address.startswith("#") or len(address) == 1:
+            return None
+        inside = unquote(address[1:])
+        if "=" in inside:
+            cast, point = self._point(address[1:])
+            return f'<r4d-link figure="{escape(cast.name)}" point="{escape(point)}">', "</r4d-link>"
+        try:
+            cast, node = self._owner(inside, lambda cast: dict.fromkeys(cast.nodes), what="object")
+        except UnknownNameError:
+            if inside in self.slugs:
+                return None
+            raise
+        return f'<r4d-word figure="{escape(cast.name)}" node="{escape(node)}">', "</r4d-word>"
+
+    def _point(self, text: str) -> tuple[Cast, str]:
+        """The figure of a link, and the point without its name."""
+        owner: Cast | None = None
+        bare: list[str] = []
+        for piece in text.split("&"):
+            key, _, value = piece.partition("=")
+            key = unquote(key)
+            if "." in key and key.split(".", 1)[0] in self.casts:
+                name, key = key.split(".", 1)
+                if owner is not None and owner.name != name:
+                    raise ShapeError(f"#{text}: a link goes to a point of one figure")
+                owner = self.casts[name]
+            bare.append(f"{key}={value}")
+        keys = [piece.partition("=")[0] for piece in bare]
+        wanted = [key for key in keys if key not in ("t", "cam")]
+        if owner is None:
+            if wanted:
+                owner, _ = self._owner(wanted[0], lambda cast: dict.fromkeys(cast.parameters), what="parameter")
+            else:
+                owner = self._nearest(lambda cast: True)
+        if owner is None:
+            raise hint(ShapeError(f"#{text}: there is no figure"), "place one: ![caption](name)")
+        for key in wanted:
+            if key not in owner.parameters:
+                raise unknown(key, owner.parameters, what="parameter")
+        return owner, "&".join(bare)
+
+    def _owner(self, name: str, known: Callable[[Cast], Mapping[str, Any]], *, what: str) -> tuple[Cast, str]:
+        """The figure to which a name belongs, and the name without the figure's."""
+        first, dot, rest = name.partition(".")
+        if dot and first in self.casts:
+            cast = self.casts[first]
+            if rest not in known(cast):
+                raise unknown(rest, known(cast), what=what)
+            return cast, rest
+        found = self._nearest(lambda cast: name in known(cast))
+        if found is None:
+            error: Reactive4dError = unknown(name, [n for cast in self.casts.values() for n in known(cast)], what=what)
+            raise hint(error, "braces and links that mean something else: \\{ and \\[") if what != "object" else error
+        return found, name
+
+    def _nearest(self, fits: Callable[[Cast], bool]) -> Cast | None:
+        """The last figure before here that fits, else the first of all that does."""
+        names = [*reversed(self.order), *self.casts]
+        return next((self.casts[name] for name in names if fits(self.casts[name])), None)
+
+
+def _number(state: Any, silent: bool) -> bool:
+    """The rule of Markdown for a number in braces."""
+    if state.src[state.pos] != "{":
+        return False
+    found = _NUMBER.match(state.src, state.pos)
+    if found is None:
+        return False
+    if not silent:
+        token = state.push("number", "", 0)
+        token.meta = {"name": found[1], "spec": (found[2] or "").strip()}
+        token.content = found[0]
+    state.pos = found.end()
+    return True
+
+
+def _shown(self: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
+    """What was made HTML already."""
+    return tokens[i].content
+
+
+def _token(kind: str, html: str) -> Token:
+    return Token(kind, "", 0, content=html, block=kind == "figure")
+
+
+def _plain(tokens: Sequence[Token]) -> str:
+    """The text of a heading, without marks."""
+    return "".join(_plain(token.children) if token.children else token.content for token in tokens).strip()

@@ -1,0 +1,143 @@
+"""Sights: where things are and how they look at some ticks, for the view, the bounds and the text alternative.
+
+Nothing is asked here that the table does not ask as well: channels at ticks.
+"""
+
+import itertools
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive4d.geometry.transforms import transform_points
+from reactive4d.model.drawings import Points
+from reactive4d.model.nodes import Node
+from reactive4d_widgets.alternatives import Sight, described
+from reactive4d_widgets.channels import Seat
+from reactive4d_widgets.coverings import Segment
+from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.views import View, holding, outermost
+from reactive4d_widgets.writing import held
+
+__all__ = ["alternatives", "outline", "view"]
+
+Array = NDArray[np.float64]
+TIMES = 9
+MOST_TEXTS = 120
+TEXTS = 13
+
+
+class _UnseenError(Exception):
+    """Something about a node is an error just then."""
+
+
+def outline(plan: Plan) -> Array:
+    """(N, 3), the outermost points of what can be seen at some ticks, for the lowest and highest baked values too."""
+    asker = plan.asker
+    corners = [{}, *({name: end} for name, stops in asker.stops.items() for end in (stops[0], stops[-1]))]
+    found: list[Array] = []
+    for assigned in corners:
+        for t in asker.span.few(TIMES):
+            nodes = {seat.name: _node(plan, seat, t, assigned) for seat in plan.seats}
+            frame: Any = {name: node for name, node in nodes.items() if node is not None}
+            found.append(outermost([frame]))
+    return np.concatenate(found)
+
+
+def view(points: Array) -> View:
+    """The three-quarter view that holds all these points."""
+    return holding(points)
+
+
+def _node(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any]) -> Node | None:
+    """A node with as much as one needs to know where it is; None if it cannot be seen, or if that is an error."""
+    try:
+        if not _said(plan, seat, "visible", t, assigned):
+            return None
+        drawn = _said(plan, seat, "drawn", t, assigned)
+        if drawn not in ("mesh", "lines", "points", "label"):
+            return None
+        matrix = _said(plan, seat, "matrix", t, assigned)
+        points = None if drawn == "label" else _said(plan, seat, "points", t, assigned)
+    except _UnseenError:
+        return None
+    if not np.isfinite(matrix).all() or (points is not None and not np.isfinite(points).all()):
+        return None
+    shown = None if points is None else Points(points)
+    kind = "label" if drawn == "label" else seat.kind
+    return Node(kind=kind, matrix=matrix, color=np.ones(4), visible=True, drawn=shown, primitive=drawn)
+
+
+def _said(
+    plan: Plan, seat: Seat, what: str, t: float, assigned: Mapping[str, Any], reads: set[str] | None = None
+) -> Any:
+    channel = seat.channels.get(what)
+    if channel is None:
+        raise _UnseenError
+    answer = plan.asker.ask(channel.signal, t, assigned)
+    if reads is not None:
+        reads.update(answer.parameters)
+    if answer.error is not None:
+        raise _UnseenError
+    return answer.value
+
+
+# -- the text alternative --------------------------------------------------------------------------------------------
+
+
+def alternatives(plan: Plan, size: float) -> list[Segment]:
+    """The channel `#alt`: what can be seen, at a dozen ticks; for baked values as far as there are not too many."""
+    span, asker = plan.span, plan.asker
+    reads: set[str] = set()
+    _text(plan, span.start, {}, size, reads)
+    baked = [name for name in asker.stops if name in reads]
+    combinations = list(itertools.islice(asker.combinations(baked), MOST_TEXTS + 1))
+    if len(combinations) > MOST_TEXTS // 2:
+        combinations = [{name: asker.base[name] for name in baked}]
+    times = span.few(max(2, min(TEXTS, MOST_TEXTS // len(combinations))))
+    found: list[Segment] = []
+    for assigned in combinations:
+        texts = [_text(plan, t, assigned, size, reads) for t in times]
+        where = {name: {**asker.base, **assigned}[name] for name in sorted(reads)}
+        found.append(Segment("#alt", span.start, span.end, where, held(times, texts)))
+    return found
+
+
+def _text(plan: Plan, t: float, assigned: Mapping[str, Any], size: float, reads: set[str]) -> str:
+    sights = list(_sights(plan, t, assigned, reads))
+    values: dict[str, Any] = {}
+    for channel in plan.values:
+        answer = plan.asker.ask(channel.signal, t, assigned)
+        reads.update(answer.parameters)
+        if answer.error is None:
+            values[channel.what.removeprefix("values.")] = answer.value
+    return described(sights, values, size=size)
+
+
+def _sights(plan: Plan, t: float, assigned: Mapping[str, Any], reads: set[str]) -> Iterator[Sight]:
+    for seat in plan.seats:
+        try:
+            if not _said(plan, seat, "visible", t, assigned, reads):
+                continue
+            drawn = _said(plan, seat, "drawn", t, assigned, reads)
+            if drawn in ("none", "camera"):
+                continue
+            color = _said(plan, seat, "color", t, assigned, reads)
+            place = _said(plan, seat, "matrix", t, assigned, reads)[:3, 3]
+            text = str(_said(plan, seat, "text", t, assigned, reads)) if drawn == "label" else ""
+            if drawn in ("mesh", "lines", "points"):
+                place = _middle(plan, seat, t, assigned, reads)
+        except _UnseenError:
+            continue
+        yield Sight(seat.name, seat.kind, drawn, color, place, text)
+
+
+def _middle(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any], reads: set[str]) -> Array:
+    """Where the middle of a node's box is."""
+    points = _said(plan, seat, "points", t, assigned, reads)
+    matrix = _said(plan, seat, "matrix", t, assigned, reads)
+    if points is None or not len(points):
+        return matrix[:3, 3]
+    middle = (points.min(axis=0).astype(np.float64) + points.max(axis=0)) / 2.0
+    return transform_points(matrix, middle.reshape(1, 3))[0]

@@ -1,0 +1,79 @@
+"""Stores: the arrays of a page, each once, and how they are packed when all are known."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive4d.references import reference
+from reactive4d_widgets.chunks import encode, extent
+
+__all__ = ["Store"]
+
+Array = NDArray[Any]
+EXACT = 16_384  # bytes of floats in one channel that are kept to the last bit
+MOST_ARRAYS = 64  # in one chunk
+MOST_BYTES = 8_000_000
+
+
+class Store:
+    """Arrays by their references, in the groups in which they are packed: one channel's floats, or all indices.
+
+    >>> store = Store()
+    >>> ref = store.keep(np.zeros((2, 3), np.float32), "ball#points")
+    >>> store.keep(np.zeros((2, 3), np.float32), "cube#points") == ref, len(store.chunks())
+    (True, 1)
+    """
+
+    def __init__(self) -> None:
+        self.arrays: dict[str, Array] = {}
+        self.groups: dict[str, list[str]] = {}
+
+    def keep(self, array: Array, group: str) -> str:
+        """Keep an array, and answer its reference."""
+        array = array.astype(np.uint32 if array.dtype.kind in "iu" else np.float32, copy=False)
+        ref = reference(array)
+        if ref not in self.arrays:
+            self.arrays[ref] = array
+            self.groups.setdefault(group, []).append(ref)
+        return ref
+
+    def chunks(self, sizes: dict[str, int] | None = None) -> list[dict[str, Any]]:
+        """All arrays, packed.
+
+        Args:
+            sizes: is told how many bytes each group takes.
+        """
+        made: list[dict[str, Any]] = []
+        for group, refs in self.groups.items():
+            packed = list(packed_group([(ref, self.arrays[ref]) for ref in refs]))
+            made.extend(packed)
+            if sizes is not None:
+                sizes[group] = sizes.get(group, 0) + sum(measured(chunk) for chunk in packed)
+        return made
+
+
+def measured(chunk: dict[str, Any]) -> int:
+    """About how many bytes a chunk takes as it travels."""
+    return len(chunk["data"]) + 35 * len(chunk["refs"]) + 120
+
+
+def packed_group(named: Sequence[tuple[str, Array]]) -> Iterable[dict[str, Any]]:
+    """The chunks of some arrays: those of one shape and type together, in their order, a few at a time."""
+    floats = [array for _, array in named if array.dtype.kind == "f"]
+    is_coarse = sum(array.nbytes for array in floats) > EXACT
+    kinds: dict[Any, list[tuple[str, Array]]] = {}
+    for ref, array in named:
+        kinds.setdefault((array.dtype.str, array.shape), []).append((ref, array))
+    widths: dict[int, Any] = {}
+    if is_coarse:
+        for width in {array.shape[1] for array in floats}:
+            widths[width] = extent([array for array in floats if array.shape[1] == width])
+    for alike in kinds.values():
+        first = alike[0][1]
+        several = max(1, min(MOST_ARRAYS, MOST_BYTES // max(first.nbytes, 1)))
+        bounds = widths[first.shape[1]] if is_coarse and first.dtype.kind == "f" else None
+        for i in range(0, len(alike), several):
+            part = alike[i : i + several]
+            yield encode([array for _, array in part], refs=[ref for ref, _ in part], bounds=bounds)
