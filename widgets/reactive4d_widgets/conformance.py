@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.examples import matrices, tracks
 from reactive4d_widgets.lowering.numerals import array_of
 from reactive4d_widgets.lowering.playing import play
@@ -82,24 +83,23 @@ def _keys(track: dict[str, Any]) -> list[float]:
 
 def _borders(x: Any) -> Iterator[float]:
     """All times that stand in a track."""
-    if isinstance(x, dict):
-        parts: dict[str, Any] = x
-        if "times" in parts:
-            times = parts["times"]
-            yield from [t for t in times if t is not None] if isinstance(times, list) else array_of(times).tolist()
-        if parts.get("kind") == "repeat":
-            yield from (parts["start"] + k * parts["period"] for k in (-1, 0, 1, 2))
-        for part in parts.values():
+    if is_a(x, dict):
+        if "times" in x:
+            times: Any = x["times"]
+            yield from [t for t in times if t is not None] if is_a(times, list) else array_of(times).tolist()
+        if x.get("kind") == "repeat":
+            yield from (x["start"] + k * x["period"] for k in (-1, 0, 1, 2))
+        for part in x.values():
             yield from _borders(part)
-    elif isinstance(x, list):
-        for part in x:  # pyright: ignore[reportUnknownVariableType]
+    elif is_a(x, list):
+        for part in x:
             yield from _borders(part)
 
 
 def _told(value: Any) -> Any:
     """A value in JSON; what is not finite in words."""
-    if isinstance(value, np.ndarray):
-        return [_told(x) for x in value.tolist()]  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
+    if is_a(value, np.ndarray):
+        return [_told(x) for x in value.tolist()]
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if value != value else "inf" if value > 0 else "-inf"
     return value

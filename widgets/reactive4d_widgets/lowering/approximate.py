@@ -1,4 +1,4 @@
-"""Tracks that are exact where that is possible, and fitted where it is not: of signals, and of matrices by their factors."""
+"""Tracks that are exact where that is possible, and fitted where it is not."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -33,8 +33,8 @@ class Asked:
 
     >>> import reactive4d as r4
     >>> asked = Asked(r4.keys({0: 0.0, 2: 1.0}), {})
-    >>> asked.sample(np.array([1.0, 5.0, 7.0])).tolist(), asked.asks, list(asked.borders(-1.0, 9.0))
-    ([0.5, 1.0, 1.0], 2, [0.0, 2.0])
+    >>> asked.sample(np.array([1.0, 5.0, 7.0])).tolist(), asked.asks, {*asked.borders(-1.0, 9.0)}
+    ([0.5, 1.0, 1.0], 2, {0.0, 2.0})
     """
 
     def __init__(self, signal: Signal[Any], parameters: Mapping[str, Any]) -> None:

@@ -64,7 +64,7 @@ def bits_of(piece: Piece) -> list[Bit] | None:
         eased = np.polynomial.Polynomial(arch.powers)(start)
         columns = [np.polynomial.Polynomial(column)(eased).coef for column in powers.T]
         width = max(len(column) for column in columns)
-        table = np.array([np.pad(column, (0, width - len(column))) for column in columns]).T
+        table: Array = np.array([np.pad(column, (0, width - len(column))) for column in columns], dtype=np.float64).T
         lo = piece.lo if arch.start == 0.0 else piece.lo + length * arch.start
         hi = piece.hi if arch.stop == 1.0 else piece.lo + length * arch.stop
         bits.append(Bit(lo, hi, _slowed(table, length)))

@@ -1,4 +1,4 @@
-"""Keys whose values are signals, as terms: over each piece a sum of these, with weights that are polynomials of time."""
+"""Keys whose values are signals, as terms: over each piece a sum of these, with polynomials of time as weights."""
 
 from collections.abc import Callable
 from typing import Any
@@ -47,8 +47,7 @@ def blended_curve(curve: Curve, of: Lower) -> Term:
     inner = space.inner if space.inner is not None else _found(curve, of)
     count = len(curve.breaks)
     terms = [_outside(curve, 0, inner, of)]
-    for i in range(1, count):
-        terms.append(_inside(curve.piece(i), inner, of))
+    terms += [_inside(curve.piece(i), inner, of) for i in range(1, count)]
     terms.append(_outside(curve, count, inner, of))
     made = cases(curve.breaks, terms)
     if isinstance(inner, Colors):
@@ -170,5 +169,3 @@ def _outside(curve: Curve, i: int, space: Space, of: Lower) -> Term:
             weight = applied("+", weight, moving, shape=NUMBER)
         parts.append((_value(term, space, of), weight))
     return _sum(parts, space)
-
-

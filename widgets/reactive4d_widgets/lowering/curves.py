@@ -151,5 +151,3 @@ def _horner(pieces: list[Piece], table: Any, shape: Shape) -> Term:
     for factor in factors[-2::-1]:
         total = applied("+", factor, applied("*", total, share, shape=shape), shape=shape)
     return total
-
-

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -94,7 +95,7 @@ def _rotations() -> Iterator[Example]:
     for count in (2, 3, 9):
         times = np.cumsum([chance.choice((0.1, 0.5, 1 / 3)) for _ in range(count)]).tolist()
         yield f"slerp of {count}", slerp(times, [turn() for _ in times]), _NOTHING
-        eases = [[0.0, 0.0, 3 / (b - a) ** 2, -2 / (b - a) ** 3] for a, b in zip(times, times[1:], strict=False)]
+        eases = [[0.0, 0.0, 3 / (b - a) ** 2, -2 / (b - a) ** 3] for a, b in pairwise(times)]
         yield f"eased slerp of {count}", slerp(times, [turn() for _ in times], eases), _NOTHING
     beyond = slerp([0.0, 1.0], [turn(), turn()], [[-0.5, 2.0, 0.0, 0.0]])
     yield "slerp that overshoots", beyond, _NOTHING
@@ -131,7 +132,11 @@ def _elsewhere() -> Iterator[Example]:
     inner = {"kind": "cases", "times": [None, 2, None], "tracks": [ramp, const(-1)]}
     yield "cases of cases", {"kind": "cases", "times": [None, 1, None], "tracks": [const(9), inner]}, _NOTHING
     yield "repeat", {"kind": "repeat", "period": 3, "start": 0, "offset": None, "track": ramp}, _NOTHING
-    yield "repeat with an offset", {"kind": "repeat", "period": 0.1, "start": 0.3, "offset": [2], "track": ramp}, _NOTHING
+    yield (
+        "repeat with an offset",
+        {"kind": "repeat", "period": 0.1, "start": 0.3, "offset": [2], "track": ramp},
+        _NOTHING,
+    )
     climbing = {"kind": "repeat", "period": 1, "start": 0.25, "offset": [2, -4], "track": pair}
     yield "repeat of vectors", climbing, _NOTHING
     yield "repeat of an expression", {"kind": "repeat", "period": 0.7, "start": -0.2, "track": expr(_TIME)}, _NOTHING
@@ -147,8 +152,14 @@ _NUMBERS = (0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 2.5, -2.5, 3.0, 1e-300, 1e300, 7.25
 
 
 def _expressions() -> Iterator[Example]:
-    one = ("neg abs sqrt sin cos tan arcsin arccos arctan exp log log2 log10 sinh cosh tanh floor ceil round sign").split()
-    two = ("+ - * / ** % // min max arctan2 hypot < <= > >= == != and or").split()
+    one = [
+        *("neg", "abs", "sqrt", "sin", "cos", "tan", "arcsin", "arccos", "arctan", "exp", "log", "log2", "log10"),
+        *("sinh", "cosh", "tanh", "floor", "ceil", "round", "sign"),
+    ]
+    two = [
+        *("+", "-", "*", "/", "**", "%", "//", "min", "max", "arctan2", "hypot", "<", "<=", ">", ">=", "==", "!="),
+        *("and", "or"),
+    ]
     for name in (*one, "square", "radians", "degrees", "not"):
         given = [{"x": x} for x in _NUMBERS[: 13 if name not in ("sin", "cos", "tan") else 10]]
         yield f"expression {name}", expr([name, ["param", "x"]]), given[::2] + given[1::2]
@@ -163,7 +174,11 @@ def _expressions() -> Iterator[Example]:
     infinite = ["/", 1, 0]
     for name, a, b in (("**", 1, ["-", infinite, infinite]), ("**", -1, infinite), ("min", 1, ["/", 0, 0])):
         yield f"expression {name} of what is no number", expr([name, a, b]), _NOTHING
-    yield "expression % of the infinite", expr(["vec", ["%", -5, infinite], ["%", 5, infinite], ["%", infinite, 5]]), _NOTHING
+    yield (
+        "expression % of the infinite",
+        expr(["vec", ["%", -5, infinite], ["%", 5, infinite], ["%", infinite, 5]]),
+        _NOTHING,
+    )
     yield "expression clip", expr(["clip", _TIME, -1, 2]), _NOTHING
     yield "expression clip of a vector", expr(["clip", ["vec", _TIME, 5, -5], -1, ["vec", 0, 1, 2]]), _NOTHING
     yield "expression where", expr(["where", ["<", _TIME, 1], _TIME, ["neg", _TIME]]), _NOTHING
@@ -171,10 +186,14 @@ def _expressions() -> Iterator[Example]:
     yield "expression where by element", expr(choice), _NOTHING
     mode = ["where", ["==", ["param", "mode"], "fast"], "hare", "snail"]
     yield "expression of strings", expr(mode), [{"mode": "fast"}, {"mode": "slow"}]
-    yield "expression of truth", expr(["+", ["param", "on"], ["*", 2, ["not", ["param", "on"]]]]), [
-        {"on": True},
-        {"on": False},
-    ]
+    yield (
+        "expression of truth",
+        expr(["+", ["param", "on"], ["*", 2, ["not", ["param", "on"]]]]),
+        [
+            {"on": True},
+            {"on": False},
+        ],
+    )
     yield "expression of a pair", expr(["*", ["index", ["param", "xy"], 1], ["param", "xy"]]), [{"xy": [3, -4]}]
     moving = ["vec", _TIME, ["sin", _TIME], 2]
     yield "expression norm", expr(["norm", moving]), _NOTHING

@@ -1,8 +1,9 @@
 """Fitting: what can only be asked becomes piecewise cubics, with as few asks as will do.
 
-The time is cut into panels of at most a second, more where borders are known. A panel is sampled at nine times; if a cubic
-is near enough to all of them, it stands, else the panel is halved. Where a value seems to jump, the jump is looked for
-by bisection, down to the last float, and becomes a border. At the end neighbours that one cubic can stand for are merged.
+The time is cut into panels of at most a second, more where borders are known. A panel is sampled at nine times; if a
+cubic is near enough to all of them, it stands, else the panel is halved. Where a value seems to jump, the jump is
+looked for by bisection, down to the last float, and becomes a border. At the end neighbours that one cubic can stand
+for are merged.
 """
 
 import math
@@ -121,14 +122,13 @@ class Pieces:
 def _rounding(table: Array, lengths: Array) -> float:
     """How much the values change when the coefficients are rounded to seven digits."""
     with np.errstate(over="ignore"):
-        rounded = np.abs(table - table.astype(np.float32).astype(np.float64))
-    reached = rounded * lengths[:, None, None] ** np.arange(table.shape[1])[:, None]
-    return float(reached.sum(axis=1).max())
+        lost: Any = np.abs(table - table.astype(np.float32).astype(np.float64))
+    powers = np.array(range(table.shape[1]), dtype=np.float64)
+    reach: Any = np.power(lengths[:, None], powers)
+    return float((lost * reach[:, :, None]).sum(axis=1).max())
 
 
-def fitted_cubics(
-    sample: Sample, start: float, stop: float, *, measure: Measure, breaks: Breaks = ()
-) -> Pieces | None:
+def fitted_cubics(sample: Sample, start: float, stop: float, *, measure: Measure, breaks: Breaks = ()) -> Pieces | None:
     """The cubics of a fit; see `fit`."""
     return _Fitting(sample, start, stop, measure=measure, breaks=breaks).found()
 

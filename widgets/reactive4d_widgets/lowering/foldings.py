@@ -88,5 +88,3 @@ def extended(
     if curve.after == "linear" and not after.is_held:
         term = cases([last], [term, ray(after.controls, last)])
     return term
-
-

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 
 from reactive4d.signals.curves.curve import Curve
+from reactive4d.signals.rotations import Rotation
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.foldings import extended
 from reactive4d_widgets.lowering.numerals import fine
 from reactive4d_widgets.lowering.terms import HELD, NUMBER, ROTATION, Shape, Term, constant, of_track, told
@@ -39,12 +41,8 @@ def shape_of(value: Any) -> Shape:
     >>> shape_of(True), shape_of(np.ones(3)), shape_of("red")
     ((), (3,), 'held')
     """
-    from reactive4d.signals.rotations import Rotation
-
-    if isinstance(value, bool | int | float | np.number):
+    if is_a(value, bool, int, float, np.number):
         return NUMBER
-    if isinstance(value, np.ndarray) and value.dtype.kind in "biuf":
+    if is_a(value, np.ndarray) and value.dtype.kind in "biuf":
         return value.shape
     return ROTATION if isinstance(value, Rotation) else HELD
-
-

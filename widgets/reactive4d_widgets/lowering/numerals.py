@@ -8,6 +8,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.signals.trees import is_a
+
 __all__ = ["Array", "Num", "array_of", "coarse", "fine"]
 
 Array: TypeAlias = NDArray[np.float64]
@@ -52,10 +54,9 @@ def array_of(num: Any) -> Array:
     >>> array_of({"f64": "AAAAAAAA8D8="})
     array([1.])
     """
-    if isinstance(num, dict):
-        packed: dict[str, str] = num
+    if is_a(num, dict):
         for name, dtype in _FORMS.items():
-            if name in packed:
-                return np.frombuffer(base64.b64decode(packed[name], validate=True), dtype=dtype).astype(np.float64)
-        raise ValueError(f"numbers: expected f64 or f32, got {sorted(packed)}")
+            if name in num:
+                return np.frombuffer(base64.b64decode(num[name], validate=True), dtype=dtype).astype(np.float64)
+        raise ValueError(f"numbers: expected f64 or f32, got {sorted(num)}")
     return np.array(num, dtype=np.float64)

@@ -1,7 +1,7 @@
 """What objects answer, as terms: their matrix as a product of factors, their position, their paint, whether they show.
 
-The list of changes must be the same at all times, or at least from one time to the next; then each of these times has its
-own product.
+The list of changes must be the same at all times, or at least from one time to the next; then each of these times has
+its own product.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,7 +14,7 @@ from reactive4d.model.colorings import Color, Opacity, Shade, Texture
 from reactive4d.model.lanes import Gated, Item, entry_of
 from reactive4d.model.objects import Object
 from reactive4d.signals.facade import Signal
-from reactive4d_widgets.lowering.operations import choose
+from reactive4d_widgets.lowering.elementary import choose
 from reactive4d_widgets.lowering.playing import play
 from reactive4d_widgets.lowering.products import Factor, factors_of, product_track
 from reactive4d_widgets.lowering.signals import ChannelRule, Lowering
@@ -33,6 +33,7 @@ from reactive4d_widgets.lowering.vectors import carried, is_zero, minus, orienti
 
 __all__ = ["CHANNELS", "composed", "lists", "matrix_term", "paint_term", "position_term", "visible_term"]
 
+_COLORINGS: Final[dict[type, str]] = {Color: "value", Opacity: "value", Shade: "surface_color"}
 MATRIX: Final = (4, 4)
 SPACE: Final = (3,)
 # From an object and its run to its factors.
@@ -228,7 +229,7 @@ def _painted(obj: Object, items: Sequence[Item], lowering: Lowering) -> tuple[Te
     opacity: Term = constant(1.0)
     for item in items:
         change = entry_of(item).change
-        attribute = {Color: "value", Opacity: "value", Shade: "surface_color"}.get(type(change))
+        attribute = _COLORINGS.get(type(change))
         if attribute is None:
             if isinstance(change, Texture):
                 continue

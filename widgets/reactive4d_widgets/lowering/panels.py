@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -73,10 +74,8 @@ def panels(start: float, stop: float, *, borders: list[float], longest: float) -
     """
     found: list[Panel] = []
     ends = [start, *borders, stop]
-    for lo, hi in zip(ends, ends[1:], strict=False):
+    for lo, hi in pairwise(ends):
         count = max(1, math.ceil((hi - lo) / longest))
         inner = [lo + (hi - lo) * k / count for k in range(1, count)]
-        found += [
-            Panel(a, b, 0, 0, b == hi and hi != stop) for a, b in zip([lo, *inner], [*inner, hi], strict=True)
-        ]
+        found += [Panel(a, b, 0, 0, b == hi and hi != stop) for a, b in zip([lo, *inner], [*inner, hi], strict=True)]
     return found

@@ -14,6 +14,7 @@ import numpy as np
 
 from reactive4d.signals.colors import blended_to_srgb
 from reactive4d.signals.rotations import canonical_quaternions, slerp_quaternions
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.calculating import calculate
 from reactive4d_widgets.lowering.factors import factor_matrix
 from reactive4d_widgets.lowering.numerals import Array, array_of
@@ -68,7 +69,7 @@ class _Player:
 
     def const(self, track: Track, t: float) -> Any:
         value = track["value"]
-        is_row = isinstance(value, list) and value and all(type(x) in (int, float) for x in value)  # pyright: ignore
+        is_row = is_a(value, list) and value and all(type(x) in (int, float) for x in value)
         return np.array(value, dtype=np.float64) if is_row else value
 
     def ref(self, track: Track, t: float) -> Any:
@@ -105,7 +106,8 @@ class _Player:
         return calculate(track["tree"], t, self.parameters, self.play)
 
     def cases(self, track: Track, t: float) -> Any:
-        inner = track["times"][1:-1] if isinstance(track["times"], list) else array_of(track["times"])[1:-1]
+        times = track["times"]
+        inner: Any = times[1:-1] if is_a(times, list) else array_of(times)[1:-1]
         return self.play(track["tracks"][bisect_right(inner, t)], t)
 
     def repeat(self, track: Track, t: float) -> Any:
@@ -124,7 +126,7 @@ class _Player:
         matrix: Array = np.eye(4)
         for factor in track["factors"]:
             values = {
-                name: self.play(part, t) if isinstance(part, dict) else part
+                name: self.play(part, t) if is_a(part, dict) else part
                 for name, part in factor.items()
                 if name != "op" and part is not None
             }

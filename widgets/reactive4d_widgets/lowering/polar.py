@@ -8,6 +8,7 @@ R is the rotation that is nearest to the linear part; where that mirrors, S is t
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reactive4d.signals.rotations import Rotation
 from reactive4d_widgets.lowering.numerals import Array
@@ -47,7 +48,7 @@ def parts_of(matrices: Array) -> Parts:
     return Parts(matrices[:, :3, 3], rotation, np.stack(rows, axis=1))
 
 
-def _nearest(turns: Array, tells: Array) -> Array:
+def _nearest(turns: Array, tells: NDArray[np.bool_]) -> Array:
     """For each that tells no rotation, that of the last one before it which does, else of the first one after it."""
     if not tells.any():
         return np.broadcast_to(np.eye(3), (len(turns), 3, 3))

@@ -131,21 +131,26 @@ class Composing:
         """One transform; None where it depends on more than its own settings, and is none of those that are known."""
         act, wants, cls = run.steps[i]
         plain, wanted = step(cls)
+        known: Any = change
         rule = _KNOWN.get(cls) if act is plain else None
         if rule is not None:
             if "position" in wanted and run.origin is not None:
                 return None
 
             def attribute(name: str, measure: str) -> Term:
-                index = cls.indices[name]
-                return self.leaf(cls.settings[index], change.contents[index], measure)
+                index: int = known.indices[name]
+                return self.leaf(known.settings[index], known.contents[index], measure)
 
             found = rule(attribute, change, self.linked)
             if found is not None:
                 return found
         if wants:
             return None
-        return self.opaque(lift(lambda values: np.asarray(act(values, {}), dtype=np.float64))(change.values))
+
+        def matrix(values: Any) -> Array:
+            return np.asarray(act(values, {}), dtype=np.float64)
+
+        return self.opaque(lift(matrix)(change.values))
 
 
 Attributes = Callable[[str, str], Term]
@@ -233,9 +238,7 @@ _KNOWN: Final[dict[type[Transform], Rule]] = {
 }
 
 
-def factors_of(
-    run: Signal[Any] | None, *, table: Table, leaf: Leaf, opaque: Opaque, linked: Linked
-) -> list[Factor]:
+def factors_of(run: Signal[Any] | None, *, table: Table, leaf: Leaf, opaque: Opaque, linked: Linked) -> list[Factor]:
     """The factors of a run of transforms.
 
     Args:
@@ -246,5 +249,3 @@ def factors_of(
         linked: the factors of another object.
     """
     return Composing(table, leaf, opaque, linked).of(run)
-
-

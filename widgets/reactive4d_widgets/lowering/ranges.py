@@ -7,7 +7,9 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.numerals import Array, array_of
+from reactive4d_widgets.lowering.terms import head
 
 __all__ = ["EVERYTHING", "Bounds", "Range", "range_of"]
 
@@ -23,18 +25,18 @@ def range_of(tree: Any, bounds: Bounds) -> Range:
     >>> range_of(["+", 0.5, ["*", 0.5, ["sin", ["time"]]]], {})
     (0.0, 1.0)
     """
-    if not isinstance(tree, list):
-        return (float(tree), float(tree)) if isinstance(tree, int | float) else EVERYTHING
-    name: Any = tree[0]  # pyright: ignore[reportUnknownVariableType]
+    name = head(tree)
+    if not name:
+        return (float(tree), float(tree)) if is_a(tree, int, float) else EVERYTHING
     if name == "track":
         return _track(tree[1], bounds)
     if name == "param":
-        return bounds.get(tree[1], EVERYTHING)  # pyright: ignore[reportUnknownArgumentType]
+        return bounds.get(tree[1], EVERYTHING)
     if name in _KNOWN:
         return _KNOWN[name]
     if name in ("at", "index"):
         return range_of(tree[1], bounds)
-    parts = [range_of(part, bounds) for part in tree[1:]]  # pyright: ignore[reportUnknownVariableType]
+    parts = [range_of(part, bounds) for part in tree[1:]]
     if name == "where":
         return _hull(parts[1:])
     if name == "vec":
@@ -76,8 +78,9 @@ def _poly(track: Any) -> Range:
         for column in row.T:
             slopes = [j * c for j, c in enumerate(column.tolist())][1:]
             roots: Any = np.roots(slopes[::-1]) if any(slopes) else []
-            turns = [float(r.real) for r in roots if abs(r.imag) < 1e-9 and 0.0 < r.real < length]
-            found += [float(np.polyval(column[::-1], s)) for s in (0.0, length, *turns)]
+            turns: list[float] = [r.real for r in roots if abs(r.imag) < 1e-9 and 0.0 < r.real < length]
+            polynomial: Any = np.polynomial.Polynomial(column)
+            found += [float(polynomial(s)) for s in (0.0, length, *turns)]
     # What is rounded beyond a bound at a key does not overstep it.
     return _snapped(min(found)), _snapped(max(found))
 
@@ -110,6 +113,30 @@ def _root(a: Range) -> Range:
     return math.sqrt(max(a[0], 0.0)), math.sqrt(max(a[1], 0.0))
 
 
+def _sum(a: Range, b: Range) -> Range:
+    return a[0] + b[0], a[1] + b[1]
+
+
+def _difference(a: Range, b: Range) -> Range:
+    return a[0] - b[1], a[1] - b[0]
+
+
+def _least(a: Range, b: Range) -> Range:
+    return min(a[0], b[0]), min(a[1], b[1])
+
+
+def _most(a: Range, b: Range) -> Range:
+    return max(a[0], b[0]), max(a[1], b[1])
+
+
+def _clip(x: Range, low: Range, high: Range) -> Range:
+    return _least(_most(x, low), high)
+
+
+def _opposite(a: Range) -> Range:
+    return -a[1], -a[0]
+
+
 def _mod(a: Range, b: Range) -> Range:
     return (0.0, b[1]) if b[0] > 0.0 else EVERYTHING
 
@@ -126,15 +153,16 @@ _UNIT: Final[Range] = (-1.0, 1.0)
 _TRUTH: Final[Range] = (0.0, 1.0)
 _KNOWN: Final[dict[str, Range]] = {
     **dict.fromkeys(("sin", "cos", "tanh", "sign"), _UNIT),
+    "rgba": (0.0, 1.0),
     **dict.fromkeys(("<", "<=", ">", ">=", "==", "!=", "not", "and", "or"), _TRUTH),
 }
 _RULES: Final[dict[str, Callable[..., Range]]] = {
-    "+": lambda a, b: (a[0] + b[0], a[1] + b[1]),
-    "-": lambda a, b: (a[0] - b[1], a[1] - b[0]),
+    "+": _sum,
+    "-": _difference,
     "*": _products,
     "/": _over,
     "%": _mod,
-    "neg": lambda a: (-a[1], -a[0]),
+    "neg": _opposite,
     "abs": _abs,
     "square": _square,
     "sqrt": _root,
@@ -143,7 +171,7 @@ _RULES: Final[dict[str, Callable[..., Range]]] = {
     "ceil": _monotonic(lambda x: math.ceil(x) if math.isfinite(x) else x),
     "radians": _monotonic(math.radians),
     "degrees": _monotonic(math.degrees),
-    "min": lambda a, b: (min(a[0], b[0]), min(a[1], b[1])),
-    "max": lambda a, b: (max(a[0], b[0]), max(a[1], b[1])),
-    "clip": lambda x, low, high: (min(max(x[0], low[0]), high[0]), min(max(x[1], low[1]), high[1])),
+    "min": _least,
+    "max": _most,
+    "clip": _clip,
 }

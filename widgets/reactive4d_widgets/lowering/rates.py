@@ -44,7 +44,7 @@ def slope(curve: Curve, order: int) -> Term:
     bits = [Bit(bit.lo, bit.hi, _derived(bit.powers, order)) for bit in _bits(pieces)]
     inner = joined(bits, shape=shape)
     first, last = curve.times[0], curve.times[-1]
-    modes = {side: mode for side, mode in (("<", curve.before), (">=", curve.after))}
+    modes = {"<": curve.before, ">=": curve.after}
     for mode, i in ((curve.before, 0), (curve.after, len(curve.breaks))):
         if mode == "oscillate" and not curve.piece(i).controls:
             raise NotExactError("the derivative of keys that run to and fro")

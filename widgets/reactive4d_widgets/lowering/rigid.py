@@ -15,9 +15,7 @@ PRECISE = 1e-4
 TURN = 1e-3  # radians
 
 
-def fit_matrix(
-    sample: Sample, start: float, stop: float, *, size: float, breaks: Breaks = ()
-) -> Fitted | None:
+def fit_matrix(sample: Sample, start: float, stop: float, *, size: float, breaks: Breaks = ()) -> Fitted | None:
     """Matrices that can only be asked, as a product of one factor: translation, rotation and symmetric stretch.
 
     Args:

@@ -6,9 +6,11 @@ import numpy as np
 
 from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Reference, Setting, Text, Vector
 from reactive4d.signals.colors import color
-from reactive4d_widgets.lowering.operations import vector
+from reactive4d_widgets.lowering.elementary import vector
+from reactive4d_widgets.lowering.numerals import array_of
 from reactive4d_widgets.lowering.ranges import Bounds, range_of
 from reactive4d_widgets.lowering.terms import (
+    CODE,
     HELD,
     NUMBER,
     NotExactError,
@@ -16,10 +18,11 @@ from reactive4d_widgets.lowering.terms import (
     applied,
     component,
     constant,
+    head,
     of_track,
     polynomials,
+    track_in,
 )
-from reactive4d_widgets.lowering.numerals import array_of
 
 __all__ = ["conformed"]
 
@@ -69,13 +72,11 @@ def _is_within(term: Term, low: float, high: float, bounds: Bounds) -> bool:
 
 def _truth(term: Term, setting: Setting[Any]) -> Term:
     _expect(term.shape == NUMBER, setting)
-    tree = term.tree
-    if isinstance(tree, list):
-        if tree[0] in _TRUTHS:
-            return term
-        if tree[0] == "track" and tree[1]["kind"] == "stepped":  # pyright: ignore[reportUnknownMemberType]
-            track: Any = tree[1]  # pyright: ignore[reportUnknownVariableType]
-            return of_track({**track, "values": [bool(x) for x in track["values"]]}, NUMBER)
+    track = track_in(term.tree)
+    if head(term.tree) in _TRUTHS:
+        return term
+    if track is not None and track["kind"] == "stepped":
+        return of_track({**track, "values": [bool(x) for x in track["values"]]}, NUMBER)
     return applied("!=", term, constant(0.0), shape=NUMBER)
 
 
@@ -93,11 +94,14 @@ def _vector(term: Term, setting: Vector, bounds: Bounds) -> Term:
 
 def _paint(term: Term, setting: Setting[Any], bounds: Bounds) -> Term:
     """Four numbers: three get their alpha, and names become colours."""
-    tree = term.tree
-    track: Any = tree[1] if isinstance(tree, list) and tree[0] == "track" else None
+    track = track_in(term.tree)
+    if term.shape == CODE:
+        return applied("rgba", term, shape=(4,))
     if term.shape == HELD:
-        _expect(track is not None and track["kind"] == "stepped", setting)
-        return of_track({**track, "values": [color(x).tolist() for x in track["values"]]}, (4,))
+        if track is None or track["kind"] != "stepped":
+            raise NotExactError(f"{setting.path}: names that are not known")
+        values: list[Any] = track["values"]
+        return of_track({**track, "values": [color(x).tolist() for x in values]}, (4,))
     _expect(term.shape in ((3,), (4,)) and _is_within(term, 0.0, 1.0, bounds), setting)
     if term.shape == (4,):
         return term

@@ -3,11 +3,13 @@
 What is opaque but stands still piece by piece is lowered as what it says; what is opaque and moves is not lowered.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, Final
 
 from reactive4d.errors import Reactive4dError
+from reactive4d.illustrations.kinds import choices_of, kind_of
 from reactive4d.model.attributes import DEFAULT, INHERITED, Attribute, Part
 from reactive4d.model.channels import Channel
 from reactive4d.model.settings import Setting
@@ -20,18 +22,22 @@ from reactive4d.signals.numerical import Difference, Quadrature
 from reactive4d.signals.reflections import KeyArea, KeySlope, Reflected
 from reactive4d.signals.settables import Assigned
 from reactive4d.signals.sources import Parameter, Time
+from reactive4d.signals.trees import is_a
 from reactive4d.signals.warps import Follow, Warped
 from reactive4d_widgets.lowering.blendings import blended_curve
 from reactive4d_widgets.lowering.curves import curve_term
+from reactive4d_widgets.lowering.elementary import choose
 from reactive4d_widgets.lowering.holding import shape_of
-from reactive4d_widgets.lowering.operations import choose, operated
+from reactive4d_widgets.lowering.operations import operated
 from reactive4d_widgets.lowering.rates import area, difference, slope
 from reactive4d_widgets.lowering.settings import conformed
 from reactive4d_widgets.lowering.standings import standings
 from reactive4d_widgets.lowering.terms import (
+    CODE,
     HELD,
     NUMBER,
     NotExactError,
+    Shape,
     Term,
     applied,
     cases,
@@ -43,6 +49,7 @@ from reactive4d_widgets.lowering.warpings import followed_time, mapped_time
 
 __all__ = ["ChannelRule", "Lowering"]
 
+INF: Final = math.inf
 MOST_DEEP: Final = 120  # signals within signals
 
 # From an object and who lowers to the term of one of its channels.
@@ -72,9 +79,9 @@ class Lowering:
         Raises:
             NotExactError: no track says exactly what it says.
         """
-        if not isinstance(x, Signal):
+        if not is_a(x, Signal):
             return constant(x)
-        signal: Any = x
+        signal = x
         known = self._done.get(id(signal))
         if known is not None:
             return known[1]
@@ -116,11 +123,11 @@ class Lowering:
         """What the reader drives."""
         if x.name in self.parameters:
             return constant(x.present(x.admit(self.parameters[x.name])))
-        shape = shape_of(x.present(x.default))
-        if x.bounds is not None:
-            self.bounds[x.name] = (float(x.bounds[0]), float(x.bounds[1]))
-        term = written(["param", x.name], shape)
-        return Term(term.tree, shape)
+        shape = _driven_shape(x)
+        if shape == NUMBER and x.bounds is not None:
+            low, high = x.bounds
+            self.bounds[x.name] = (-INF if low is None else float(low), INF if high is None else float(high))
+        return Term(["param", x.name], shape, 2, 2)
 
     def keys(self, x: Any) -> Term:
         """Keys."""
@@ -210,6 +217,31 @@ class Lowering:
         """What an object answers."""
         rule = self.channels.get(x.label)
         return self.opaque(x) if rule is None else rule(x.object, self)
+
+
+def _driven_shape(x: Any) -> Shape:
+    """The shape of a reader's parameter as it travels.
+
+    Raises:
+        NotExactError: some of its values travel as something else.
+    """
+    declared = getattr(x, "declared", None)
+    kind = None if declared is None else kind_of(declared)
+    if declared is not None and declared.allow_None:
+        raise NotExactError(f"the parameter {x.name} may be nothing")
+    if kind == "color":
+        return CODE
+    shape = shape_of(x.present(x.default))
+    if kind == "select":
+        shapes = {shape_of(value) for value in choices_of(declared).values()}
+        if len(shapes) > 1:
+            raise NotExactError(f"the parameter {x.name} is of several kinds")
+        for value in choices_of(declared).values():
+            if not is_a(value, str, bool, int, float):
+                raise NotExactError(f"the parameter {x.name} chooses among what does not travel")
+    elif shape == HELD and not is_a(x.default, str):
+        raise NotExactError(f"the parameter {x.name} does not travel")
+    return shape
 
 
 _RULES: Final[tuple[tuple[type, Callable[[Lowering, Any], Term]], ...]] = (

@@ -1,7 +1,7 @@
 """Terms: signals on their way to tracks. A term is a tree, and what is known of its values: their shape, or all of it.
 
-A term whose value is known is folded as soon as it is used. Trees are bounded in nodes and depth; what grows beyond that
-is not lowered.
+A term whose value is known is folded as soon as it is used. Trees are bounded in nodes and depth; what grows beyond
+that is not lowered.
 """
 
 from collections.abc import Sequence
@@ -11,10 +11,12 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from reactive4d.signals.rotations import Rotation
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.numerals import Array, array_of, fine
 
 __all__ = [
     "ABSENT",
+    "CODE",
     "HELD",
     "NUMBER",
     "ROTATION",
@@ -26,23 +28,27 @@ __all__ = [
     "cases",
     "component",
     "constant",
+    "head",
     "of_track",
     "polynomials",
     "told",
+    "track_in",
     "track_of",
     "written",
 ]
 
 Track: TypeAlias = dict[str, Any]
-# Of an array its own; () of a number or truth value; the other two have names.
+# Of an array its own; () of a number or truth value; the others have names.
 Shape: TypeAlias = tuple[int, ...] | str
 
 NUMBER: Final[Shape] = ()
 ROTATION: Final[Shape] = "rotation"
 HELD: Final[Shape] = "held"
+CODE: Final[Shape] = "code"  # of a colour, "#rrggbb": what a reader's colour is
 ABSENT: Final = object()
-MOST_NODES: Final = 10_000
-MOST_DEPTH: Final = 64
+# Of the wire 10,000 and 64; tracks that hold others take a few on top.
+MOST_NODES: Final = 9_900
+MOST_DEPTH: Final = 60
 _FEW: Final = 4  # numbers that stand in a tree one by one
 _LARGEST: Final = 2**53
 
@@ -87,6 +93,16 @@ class Term:
         return int(np.prod(self.shape, dtype=np.int64))
 
 
+def head(tree: Any) -> str:
+    """The operator of a tree; nothing where it is a leaf."""
+    return tree[0] if is_a(tree, list) else ""
+
+
+def track_in(tree: Any) -> Any:
+    """The track that a tree is, or None."""
+    return tree[1] if head(tree) == "track" else None
+
+
 def constant(value: Any) -> Term:
     """A value that is the same at every point.
 
@@ -96,7 +112,7 @@ def constant(value: Any) -> Term:
     >>> constant(2.5).tree, constant(np.array([1.0, 2.0])).tree
     (2.5, ['vec', 1.0, 2.0])
     """
-    if isinstance(value, np.generic):
+    if is_a(value, np.generic):
         value = value.item()
     if isinstance(value, bool):
         return Term(value, NUMBER, value=value)
@@ -108,7 +124,7 @@ def constant(value: Any) -> Term:
         return Term(value if abs(value) <= _LARGEST else float(value), NUMBER, value=value)
     if isinstance(value, Rotation):
         return Term(_listed(value.as_quaternion()), ROTATION, nodes=5, depth=2, value=value)
-    if isinstance(value, np.ndarray) and value.dtype.kind in "biuf" and value.ndim:
+    if is_a(value, np.ndarray) and value.dtype.kind in "biuf" and value.ndim:
         array: Array = value.astype(np.float64)
         if not np.isfinite(array).all():
             raise NotExactError("numbers that are not finite do not travel")
@@ -150,15 +166,14 @@ def component(term: Term, index: int) -> Term:
     """
     if term.is_constant:
         return constant(np.asarray(term.value).ravel()[index])
-    if isinstance(term.tree, list) and term.tree[0] == "vec":
-        part: Any = term.tree[1 + index]  # pyright: ignore[reportUnknownVariableType]
-        if not isinstance(part, list):
+    if head(term.tree) == "vec":
+        part: Any = term.tree[1 + index]
+        if not is_a(part, list):
             return constant(part)
         return Term(part, NUMBER, term.nodes - 1, term.depth - 1)
-    if isinstance(term.tree, list) and term.tree[0] == "track":
-        track: Any = term.tree[1]  # pyright: ignore[reportUnknownVariableType]
-        if track["kind"] == "poly":
-            return _column(track, index)
+    track = track_in(term.tree)
+    if track is not None and track["kind"] == "poly":
+        return _column(track, index)
     return applied("index", term, shape=NUMBER, extra=(index,))
 
 
@@ -172,8 +187,8 @@ def _column(track: Track, index: int) -> Term:
 
 def of_track(track: Track, shape: Shape, *parts: Term) -> Term:
     """A track as a term; `parts` are the terms whose trees stand in it."""
-    nodes = 1 + sum(part.nodes for part in parts)
-    depth = 1 + max([part.depth for part in parts], default=0)
+    nodes = 2 + sum(part.nodes + 2 for part in parts)
+    depth = 2 + max([part.depth + 2 for part in parts], default=0)
     if nodes > MOST_NODES or depth > MOST_DEPTH:
         raise NotExactError(f"a track with {nodes} nodes, {depth} deep")
     return Term(["track", track], shape, nodes, depth)
@@ -190,10 +205,9 @@ def track_of(term: Term) -> Track:
     """
     if term.is_constant:
         return {"kind": "const", "value": told(term.value)}
-    if isinstance(term.tree, list) and term.tree[0] == "track":
-        track: Track = term.tree[1]
-        return track
-    return {"kind": "expr", "tree": term.tree}
+    if term.tree is ABSENT:
+        raise NotExactError("a value that does not travel")
+    return track_in(term.tree) or {"kind": "expr", "tree": term.tree}
 
 
 def told(value: Any) -> Any:
@@ -204,16 +218,16 @@ def told(value: Any) -> Any:
     """
     if isinstance(value, Rotation):
         return value.as_quaternion().tolist()
-    if isinstance(value, np.ndarray) and value.dtype.kind in "biuf":
+    if is_a(value, np.ndarray) and value.dtype.kind in "biuf":
         numbers: list[float] = value.astype(np.float64).ravel().tolist()
         if all(map(np.isfinite, numbers)):
             return numbers
-    elif isinstance(value, float | int | np.generic):
-        plain: Any = value.item() if isinstance(value, np.generic) else value
+    elif is_a(value, float, int, np.generic):
+        plain: Any = value.item() if is_a(value, np.generic) else value
         if isinstance(plain, bool) or np.isfinite(plain):
             return plain
-    elif isinstance(value, tuple | list):
-        return [told(x) for x in value]  # pyright: ignore[reportUnknownVariableType]
+    elif is_a(value, tuple, list):
+        return [told(x) for x in value]
     elif value is None or isinstance(value, str):
         return value
     raise NotExactError(f"{value!r} does not travel")
@@ -266,9 +280,9 @@ def written(tree: Any, shape: Shape) -> Term:
 
 
 def _measured(tree: Any) -> tuple[int, int]:
-    if not isinstance(tree, list):
+    if not is_a(tree, list):
         return 1, 1
     if tree[0] == "track":
         return 2, 2
-    found = [_measured(part) for part in tree[1:]]  # pyright: ignore[reportUnknownVariableType]
+    found = [_measured(part) for part in tree[1:]]
     return 1 + sum(nodes for nodes, _ in found), 1 + max([depth for _, depth in found], default=0)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d_widgets.lowering.operations import vector
+from reactive4d_widgets.lowering.elementary import vector
 from reactive4d_widgets.lowering.terms import NUMBER, ROTATION, NotExactError, Term, applied, component, constant
 
 __all__ = ["carried", "cross", "dot", "is_zero", "minus", "orienting", "plus", "rotating", "times"]

@@ -68,6 +68,10 @@ def _affine(scale: Term, offset: Term) -> Term:
     return scaled if offset.is_constant and offset.value == 0.0 else _of("+", scaled, offset)
 
 
+def _warp(times: Term) -> Term:
+    return times
+
+
 def _delay(seconds: Term) -> Term:
     return _of("-", _TIME, seconds)
 
@@ -139,7 +143,7 @@ def _discrete(fps: Term) -> Term:
 
 
 _FOLLOWED: Final[dict[str, Callable[..., Term]]] = {
-    "warp": lambda times: times,
+    "warp": _warp,
     "delay": _delay,
     "stretch": _stretch,
     "reverse": _reverse,
