@@ -36,20 +36,22 @@ export class BlobStore {
   }
 
   /** Take arrays in; the array of a known reference stays the same object.
-   * @param {Iterable<Blob>} blobs @param {() => ReadonlySet<string>} [inUse] what must not go now
-   * @returns {string[]} what went */
-  put(blobs, inUse = () => new Set()) {
+   * @param {Iterable<Blob>} blobs */
+  put(blobs) {
     for (const blob of blobs) {
       if (this.get(blob.ref) !== undefined) continue;
       this.#blobs.set(blob.ref, blob);
       this.#bytes += blob.array.byteLength;
     }
-    return this.#bytes > this.budget ? this.#evict(inUse()) : [];
   }
 
-  /** @param {ReadonlySet<string>} kept */
-  #evict(kept) {
+  /** Keep to the budget, as far as what is in use allows.
+   * @param {() => ReadonlySet<string>} [inUse] what must not go now @returns {string[]} what went */
+  evict(inUse = () => new Set()) {
+    /** @type {string[]} */
     const gone = [];
+    if (this.#bytes <= this.budget) return gone;
+    const kept = inUse();
     for (const [ref, blob] of this.#blobs) {
       if (this.#bytes <= this.budget) break;
       if (kept.has(ref)) continue;

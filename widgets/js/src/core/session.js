@@ -266,6 +266,9 @@ export class Session extends Emitter {
     this.#pump();
     // Meanwhile the reader may be elsewhere, and that not be known yet: what was asked for is shown on the way.
     if (this.#committed < wish.seq && wish !== this.#wish && this.#lack(wish) === null) this.#commit(wish);
+    // Only now is it known which of the arrays that came are in view.
+    const gone = this.blobs.evict(() => /** @type {Watch} */ (this.#watch).refs);
+    if (gone.length > 0) this.transport.dropped(gone);
   }
 
   /** @param {any} message @param {number} seq @param {Wish} wish @param {string[]} channels */
@@ -294,8 +297,7 @@ export class Session extends Emitter {
     const made = await Promise.all(chunks.map((chunk, i) => decode(chunk, `blobs[${i}]`)));
     const blobs = made.flatMap((one) => [...one.values()]);
     for (const { ref } of blobs) this.#lost.delete(ref);
-    const gone = this.blobs.put(blobs, () => /** @type {Watch} */ (this.#watch).refs);
-    if (gone.length > 0) this.transport.dropped(gone);
+    this.blobs.put(blobs);
   }
 
   /** @param {string} key @param {string[]} channels */
