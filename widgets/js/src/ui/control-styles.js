@@ -39,12 +39,12 @@ export const controlStyles = `
 
 /* The lines */
 .controls {
-  display: grid; gap: 4px 32px; align-items: start;
+  columns: 17rem 2; column-gap: 32px;
   padding-top: 6px; margin-top: 4px; border-top: 1px solid var(--line);
 }
-@container (min-width: 40rem) { .controls { grid-template-columns: repeat(auto-fit, minmax(17rem, 1fr)); } }
 .control {
   position: relative; display: grid; align-items: center; gap: 0 8px; min-width: 0; min-height: var(--target);
+  break-inside: avoid; margin-bottom: 4px;
   grid-template-columns: 6rem minmax(0, 1fr) minmax(4.6rem, auto) var(--target);
 }
 .control .name { overflow-wrap: anywhere; cursor: default; }
@@ -79,6 +79,7 @@ export const controlStyles = `
   content: ""; position: absolute; left: 2px; top: 2px; width: 13px; height: 13px; border-radius: 50%;
   background: var(--soft); transition: translate 0.1s;
 }
+.switch::after { content: ""; position: absolute; inset: calc((18px - var(--target)) / 2) -6px; }
 .switch:checked { background: var(--accent); border-color: var(--accent); }
 .switch:checked::before { translate: 14px 0; background: var(--on-accent); }
 .switch:disabled { opacity: 0.55; cursor: not-allowed; }
@@ -139,7 +140,7 @@ input[type="color"] {
 @container (max-width: 30rem) {
   .control { grid-template-columns: minmax(0, 1fr) auto var(--target); padding-block: 3px; }
   .control > .name { grid-row: 1; grid-column: 1; }
-  .control > .slider, .control > .between { grid-row: 2; grid-column: 1 / -1; }
+  .control > .slider, .control > .between { grid-row: 2; grid-column: 1 / -1; margin-top: -6px; }
   .control > .amount { grid-row: 1; grid-column: 2; }
   .control > .icon-button { grid-row: 1; grid-column: 3; }
   .control:has(> .field) { grid-template-columns: auto minmax(0, 1fr); }

@@ -153,13 +153,13 @@ export class FigureElement extends ElementBase {
     } else this.dispatchEvent(new CustomEvent(name, { bubbles: true }));
   }
 
-  /** Light or dark: as the figure is told, else as the page is, else as the reader's system is. */
+  /** Light or dark as the page is, else as the reader's system; the picture as the figure is told, if it is. */
   #paint() {
-    const page = this.ownerDocument.documentElement.dataset.theme;
-    const wish = this.#theme === "auto" ? page : this.#theme;
-    const dark = wish === "dark" || (wish !== "light" && prefers("(prefers-color-scheme: dark)"));
-    this.#frame.dataset.theme = dark ? "dark" : "light";
-    this.#life?.paint(dark ? "dark" : "light");
+    const told = this.ownerDocument.documentElement.dataset.theme;
+    const dark = told === "dark" || (told !== "light" && prefers("(prefers-color-scheme: dark)"));
+    const page = dark ? "dark" : "light";
+    this.#frame.dataset.theme = page;
+    this.#life?.paint(this.#theme === "dark" || this.#theme === "light" ? this.#theme : page);
   }
 
   /** Share the point of the figure that `follow` names, once both live. */

@@ -7,14 +7,19 @@ export const figureStyles = `
 :host { display: block; position: relative; min-width: 0; }
 :host([hidden]), [hidden] { display: none !important; }
 * { box-sizing: border-box; }
+.figure, .picture[data-theme="light"] { ${LIGHT} }
+.figure[data-theme="dark"], .picture[data-theme="dark"] { ${DARK} }
 .figure {
-  ${LIGHT}
   --target: 28px; --thumb: 16px; container-type: inline-size; color: var(--ink);
   font: 13px/1.35 system-ui, -apple-system, "Segoe UI", "Noto Sans", "Helvetica Neue", "DejaVu Sans", sans-serif;
   font-variant-numeric: lining-nums tabular-nums;
 }
-.figure[data-theme="dark"] { ${DARK} }
-@media (pointer: coarse) { .figure { --target: 44px; --thumb: 26px; } }
+@media (pointer: coarse) {
+  .figure { --target: 44px; --thumb: 26px; font-size: 15px; }
+  .typed, select, .link { font-size: 16px; }
+  .typed { min-height: 40px; }
+  .icon { scale: 1.25; }
+}
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; border-radius: 3px; }
 .spoken {
   position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap;
@@ -22,7 +27,8 @@ export const figureStyles = `
 
 /* The picture */
 .picture {
-  position: relative; overflow: hidden; border-radius: 4px; background: var(--plate); border: 1px solid var(--line);
+  position: relative; overflow: hidden; border-radius: 4px; border: 1px solid var(--line);
+  background: var(--plate); color: var(--ink);
   height: var(--r4d-height, auto); aspect-ratio: 8 / 5; max-height: min(80vh, 46rem); width: 100%;
 }
 .picture > canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; touch-action: pan-y; }
@@ -66,7 +72,8 @@ export const figureStyles = `
   margin: 0; justify-self: start; max-width: 100%; background: var(--raised); border: 1px solid var(--line);
   border-radius: 4px; padding: 5px 9px; pointer-events: auto; overflow-wrap: anywhere;
 }
-.problems { list-style: none; border-left: 4px solid var(--alarm); max-height: 9em; overflow: auto; }
+.problems {
+  list-style: none; white-space: pre-line; border-left: 4px solid var(--alarm); max-height: 9em; overflow: auto; }
 .problems li::before { content: "\\26A0\\FE0E\\00A0"; color: var(--alarm); }
 .waiting { color: var(--soft); }
 .back { position: absolute; right: 8px; top: 8px; background: var(--raised); border-color: var(--line); }
@@ -141,6 +148,7 @@ select {
 .strip i[data-state="missing"] { border-bottom-color: var(--line); }
 @keyframes drift { to { background-position-x: 7px; } }
 @container (max-width: 34rem) {
+  .picture { aspect-ratio: 4 / 3; }
   .player { grid-template-columns: auto minmax(0, 1fr) auto; }
   .scrub { grid-row: 1; grid-column: 1 / -1; }
   .player > .amount { justify-self: center; }
@@ -182,10 +190,17 @@ ${controlStyles}
 @media (forced-colors: active) {
   .icon { fill: ButtonText; }
   .handle::before { border-color: Highlight; background: Canvas; forced-color-adjust: none; }
-  .strip i { forced-color-adjust: none; color: CanvasText; }
+  .strip i, .ticks i, .between::before, .between::after, .switch::before { forced-color-adjust: none; }
+  .strip i { color: CanvasText; }
+  .ticks i, .between::before, .switch::before { background: CanvasText; }
+  .between::after { background: Highlight; }
+  .slider input { forced-color-adjust: none; --accent: Highlight; --line: GrayText; --raised: Canvas; }
+  .switch:checked { forced-color-adjust: none; background: Highlight; border-color: Highlight; }
+  .switch:checked::before { background: HighlightText; }
   :focus-visible { outline-color: Highlight; }
 }
 @media print {
+  .figure, .figure[data-theme], .picture[data-theme] { ${LIGHT} }
   .bar, .controls, .over, .hover, .back, .waiting { display: none !important; }
   .picture { background: none; max-height: 12cm; }
   .picture[data-still] > canvas { display: none; }

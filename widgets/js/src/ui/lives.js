@@ -109,7 +109,7 @@ export class Life {
         view.on("camera", () => { reader.looked(); this.handles.place(); this.#menuNow(); this.#label(); }),
         view.on("hover", (hit) => { if (!this.#selected) this.picture.hover(hit); }),
         view.on("lost", () => this.picture.live(false, this.#drawn ? LOST : STILL)),
-        view.on("restored", () => this.picture.live(true)),
+        view.on("restored", () => { if (this.snapshot) this.#draw(); }),
       );
     } else this.picture.live(false, STILL);
     const sizes = new ResizeObserver(() => { this.handles.place(); this.#label(); });
@@ -122,16 +122,32 @@ export class Life {
     const first = this.snapshot === null;
     this.snapshot = snapshot;
     this.view?.show(snapshot);
-    if (first && this.view) {
-      this.picture.live(true);
-      this.#drawn = true;
-    }
+    if (first) this.#unveil();
     this.picture.fail(snapshot.problems);
     this.handles.place();
     this.#label();
     this.#strip(false);
     this.#describe(first);
     this.#parts.tell("r4d-commit");
+  }
+
+  /** The poster stays until the picture comes into view and is drawn for the first time. */
+  #unveil() {
+    const seen = new IntersectionObserver((entries) => {
+      if (!entries.some((entry) => entry.isIntersecting) || !this.view) return;
+      seen.disconnect();
+      this.#draw();
+    }, { rootMargin: "80px" });
+    seen.observe(this.picture.element);
+    this.#off.push(() => seen.disconnect());
+  }
+
+  /** Now, and finely. @returns {boolean} whether there is something to draw with */
+  #draw() {
+    if (!this.view?.render()) return false;
+    this.#drawn = true;
+    this.picture.live(true);
+    return true;
   }
 
   #moved() {
@@ -243,6 +259,7 @@ export class Life {
 
   /** @param {"light" | "dark"} theme */
   paint(theme) {
+    this.picture.element.dataset.theme = theme;
     if (this.view) this.view.options = { theme };
   }
 
@@ -271,10 +288,7 @@ export class Life {
   /** @param {boolean} printing */
   print(printing) {
     if (!printing) this.picture.print(null);
-    else if (this.view && this.#drawn) {
-      this.view.render();
-      this.picture.print(this.picture.canvas.toDataURL("image/png"));
-    }
+    else if (this.snapshot && this.#draw()) this.picture.print(this.picture.canvas.toDataURL("image/png"));
   }
 
   dispose() {

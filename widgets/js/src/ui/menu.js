@@ -1,6 +1,6 @@
 /** The menu of a figure: how it is drawn, and what one can do with it besides. */
 
-import { button, make, setAll, setText, unique } from "./elements.js";
+import { button, make, reducedMotion, setAll, setText, unique } from "./elements.js";
 import { icon } from "./icons.js";
 
 /**
@@ -78,6 +78,7 @@ export class Menu {
     setAll(this.toggle, { "aria-expanded": String(open) });
     this.#closing.abort();
     if (!open) return;
+    this.panel.scrollIntoView({ block: "nearest", behavior: reducedMotion() ? "auto" : "smooth" });
     this.#closing = new AbortController();
     const outside = (/** @type {Event} */ event) => {
       const path = event.composedPath();

@@ -4,8 +4,8 @@ import { DARK, LIGHT } from "./palettes.js";
 
 export const pageStyles = `
 :root { ${LIGHT} }
-@media (prefers-color-scheme: dark) { :root:not([data-theme="light"]) { ${DARK} } }
-:root[data-theme="dark"] { ${DARK} }
+@media screen and (prefers-color-scheme: dark) { :root:not([data-theme="light"]) { ${DARK} } }
+@media screen { :root[data-theme="dark"] { ${DARK} } }
 
 html { -webkit-text-size-adjust: 100%; text-size-adjust: 100%; scroll-padding-top: 1rem; }
 body {
@@ -19,7 +19,7 @@ body {
   grid-template-columns: minmax(0, 34em); padding: clamp(1.5rem, 6vw, 4.5rem) clamp(1rem, 5vw, 2rem) 5rem;
 }
 .r4d-page > * { margin: 0; min-width: 0; }
-.r4d-page p, .r4d-page li { hyphens: auto; overflow-wrap: break-word; text-wrap: pretty; hanging-punctuation: first; }
+.r4d-page p, .r4d-page li { hyphens: auto; overflow-wrap: break-word; hanging-punctuation: first; }
 .r4d-page > p + p { margin-top: 0.75em; }
 .r4d-page h1, .r4d-page h2, .r4d-page h3, .r4d-page h4 { font-weight: 500; line-height: 1.2; text-wrap: balance; }
 .r4d-page h1 { font-size: clamp(1.75rem, 1.3rem + 2vw, 2.4rem); letter-spacing: -0.01em; margin-bottom: 1.4rem; }
@@ -54,13 +54,14 @@ r4d-figure:not(:defined) .r4d-poster, .r4d-poster { display: block; width: 100%;
   figure.r4d figcaption { max-width: calc(34em / 0.9 * 1.0625); margin-inline: 5rem; }
 }
 @media print {
-  :root, :root[data-theme] { ${LIGHT} --paper: #fff; }
+  :root { --paper: #fff; }
   body { font-size: 10.5pt; line-height: 1.45; background: none; }
   .r4d-page { display: block; padding: 0; max-width: 36em; margin-inline: auto; }
   .r4d-page a { color: inherit; }
   .r4d-page h1, .r4d-page h2, .r4d-page h3 { break-after: avoid; }
   figure.r4d, .r4d-page > r4d-figure { break-inside: avoid; margin-inline: 0; }
   p { orphans: 3; widows: 3; }
+  figure.r4d figcaption { margin-inline: 0; max-width: none; font-size: 9.5pt; }
   @page { margin: 22mm 20mm; }
 }
 `;

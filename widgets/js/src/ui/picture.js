@@ -22,6 +22,7 @@ export const KEYS = "Arrow keys turn the view, plus and minus zoom, Space plays,
 /** Errors, as sentences: where and why. @param {readonly Problem[]} problems */
 export function problemTexts(problems) {
   return problems.map(({ channel, text }) => {
+    if (channel === "") return text;
     const at = channel.lastIndexOf("#");
     const [node, what] = at < 0 ? ["", channel] : [channel.slice(0, at), channel.slice(at + 1)];
     const subject = node ? `${node} is not shown: its ${what}` : `${what.replace(/^values\./, "")} is not known: it`;
