@@ -9,13 +9,11 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 from urllib.parse import parse_qsl, quote
 
 from reactive4d.errors import ParameterError, ShapeError, TimeError, hint, unknown
-
-if TYPE_CHECKING:
-    from reactive4d.illustrations.controls import Control, Wire
+from reactive4d.illustrations.controls import Control, Wire, number_of
 
 __all__ = ["Bookmark", "Look", "fields_of"]
 
@@ -59,7 +57,7 @@ class Bookmark:
     """
 
     time: float = 0.0
-    parameters: "Mapping[str, Wire]" = field(default_factory=lambda: NONE)
+    parameters: Mapping[str, Wire] = field(default_factory=lambda: NONE)
     camera: Look | None = None
 
     def __post_init__(self) -> None:
@@ -185,7 +183,7 @@ def fields_of(text: Any, *, prefix: str = "", strict: bool = False) -> dict[str,
     return {name: part for (_, dot, name), part in dotted if not dot}
 
 
-def _meant(name: str, text: str, controls: "Iterable[Control]") -> Any:
+def _meant(name: str, text: str, controls: Iterable[Control]) -> Any:
     """What one part of a link means."""
     if name == "t":
         return _time(_number(text))
@@ -201,10 +199,10 @@ def _meant(name: str, text: str, controls: "Iterable[Control]") -> Any:
 
 
 def _number(text: str) -> float:
-    try:
-        return float(json.loads(text))
-    except (TypeError, ValueError):
-        raise TimeError(f"expected a number, got {text!r}") from None
+    number = number_of(text)
+    if number is None:
+        raise TimeError(f"expected a number, got {text[:80]!r}")
+    return number
 
 
 def _time(value: Any) -> float:

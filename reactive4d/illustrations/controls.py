@@ -17,7 +17,7 @@ from reactive4d.errors import ParameterError
 from reactive4d.illustrations.kinds import Kind, admitted, choices_of, hexadecimal, kind_of
 from reactive4d.signals.sources import Parameter
 
-__all__ = ["Control", "Wire", "control_of", "control_of_axis"]
+__all__ = ["Control", "Wire", "control_of", "control_of_axis", "number_of"]
 
 # What travels: None, a truth value, a number, a string, or a pair of numbers as a tuple.
 Wire: TypeAlias = Any
@@ -140,11 +140,10 @@ class Control:
         if self.kind == "select":
             return next((option for option in self.options or () if self.text(option) == text), text)
         parts = text.split(",") if self.kind in ("range", "xy") else [text]
-        try:
-            numbers = tuple([json.loads(part, parse_constant=_refused) for part in parts])
-        except ValueError:
-            raise ParameterError(f"{self.name}: {text!r} is no {self.kind}") from None
-        return numbers if self.kind in ("range", "xy") else numbers[0]
+        found = tuple([truth_of(part) if self.kind == "boolean" else number_of(part) for part in parts])
+        if None in found:
+            raise ParameterError(f"{self.name}: {text[:80]!r} is no {self.kind}")
+        return found if self.kind in ("range", "xy") else found[0]
 
     def description(self) -> dict[str, Any]:
         """What a page knows of it, for JSON."""
@@ -291,8 +290,24 @@ def _is_scalar(one: Any) -> bool:
     return one is None or type(one) in (bool, int, str) or (type(one) is float and math.isfinite(one))
 
 
-def _refused(text: str) -> Any:
-    raise ValueError(text)
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+
+def number_of(text: str) -> float | None:
+    """The number that a text of a link is; a whole one is an int. None if it is none.
+
+    >>> [number_of(text) for text in ("1.5", "-2", "1e999", "NaN", "[1]", "")]
+    [1.5, -2, inf, None, None, None]
+    """
+    if not _NUMBER.fullmatch(text):
+        return None
+    number = float(text)
+    return int(number) if number.is_integer() and abs(number) < 2.0**53 and text.lstrip("+-").isdigit() else number
+
+
+def truth_of(text: str) -> bool | None:
+    """The truth value that a text of a link is; None if it is none."""
+    return {"true": True, "false": False}.get(text)
 
 
 def _listed(value: Any) -> Any:
