@@ -163,7 +163,7 @@ def _is_among(axis: Any, controls: Iterable[Control], thing: Any) -> bool:
 
 
 def _words(name: str) -> list[str]:
-    return re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+", name) or [name]
+    return re.findall(r"[0-9]+[A-Z]*(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name) or [name]
 
 
 def _described(scene: Scene, one: Handle, controls: tuple[Control, ...]) -> dict[str, Any]:
@@ -179,7 +179,7 @@ def _described(scene: Scene, one: Handle, controls: tuple[Control, ...]) -> dict
         if found is None:
             raise unknown(name, [control.name for control in controls], what=f"parameter of the handle {one.label}:")
         if found.kind not in wanted:
-            error = ShapeError(f"the handle {one.label} moves {name}, which is a {found.kind}")
+            error = ShapeError(f"the handle {one.label} moves {name}, a parameter of the kind {found.kind}")
             raise hint(error, f"{' or '.join(wanted)}: x=, y=, z= and angle= take numbers, xy= takes XYCoordinates")
     return {
         "node": node_name(scene, one.object) or "",
