@@ -16,3 +16,14 @@ export { compile } from "./core/tracks.js";
 
 // transports: who answers
 export { baked } from "./transports/baked.js";
+
+// render: pictures
+export { Stage } from "./render/stages.js";
+export { View } from "./render/views.js";
+
+// the figure, what drives it from the prose, and a page that holds them
+export { FigureElement } from "./ui/figure-element.js";
+export { LinkElement } from "./inline/link.js";
+export { NumberElement } from "./inline/number.js";
+export { WordElement } from "./inline/word.js";
+export { define, start } from "./adapters/page.js";

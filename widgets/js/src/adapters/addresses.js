@@ -72,8 +72,8 @@ export class Addresses {
   #jump(figure, text) {
     const { reader } = figure;
     if (!reader) return;
-    const opened = reader.manifest.point;
-    const { time = opened.time, parameters, camera = opened.camera ?? null } = figure.read(text);
+    const { opened } = reader;
+    const { time = opened.time, parameters, camera = opened.camera } = figure.read(text);
     reader.jump({ time, parameters: { ...opened.parameters, ...parameters }, camera });
   }
 

@@ -37,6 +37,7 @@ export class FigureElement extends ElementBase {
   /** @type {Life | null} */ #life = null;
   /** @type {Transport | null} */ #transport = null;
   #theme = "auto";
+  #title = "";
   #turn = 0;
   /** @type {AbortController | null} */ #attached = null;
   #frame = make("div", { class: "figure" });
@@ -81,6 +82,8 @@ export class FigureElement extends ElementBase {
   }
 
   connectedCallback() {
+    this.#title = this.getAttribute("title") ?? this.#title;
+    this.removeAttribute("title"); // it names the figure; as a tip it would cover the picture
     this.#attached = new AbortController();
     const { signal } = this.#attached;
     this.addEventListener("keydown", (event) => this.#pressed(event), { signal });
@@ -120,6 +123,8 @@ export class FigureElement extends ElementBase {
 
   /** @param {Session} session */
   #live(session) {
+    const { time, parameters } = decode(this.getAttribute("point") ?? "", session.manifest);
+    session.set({ time, parameters });
     const clock = new Clock({
       now: () => performance.now() / 1000,
       request: (/** @type {FrameRequestCallback} */ f) => requestAnimationFrame(f),
@@ -135,7 +140,7 @@ export class FigureElement extends ElementBase {
     this.#life = life;
     this.#frame.replaceChildren(life.element);
     this.#frame.setAttribute("role", "group");
-    this.#frame.setAttribute("aria-label", life.manifest.title || life.manifest.name);
+    this.#frame.setAttribute("aria-label", this.#title || life.manifest.title || this.name);
     const { height, theme } = life.manifest.options;
     if (height) this.style.setProperty("--r4d-height", `${height}px`);
     this.#theme = theme;

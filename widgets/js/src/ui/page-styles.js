@@ -48,7 +48,11 @@ figure.r4d figcaption {
   font-variant-numeric: lining-nums tabular-nums;
 }
 r4d-figure { display: block; }
-r4d-figure:not(:defined) .r4d-poster, .r4d-poster { display: block; width: 100%; height: auto; border-radius: 4px; }
+.r4d-poster { display: block; width: 100%; height: auto; border-radius: 4px; }
+r4d-figure:not(:defined) .r4d-poster {
+  box-sizing: border-box; aspect-ratio: 8 / 5; object-fit: contain; max-height: min(80vh, 46rem);
+  background: var(--plate); border: 1px solid var(--line);
+}
 @media (min-width: 60rem) {
   figure.r4d, .r4d-page > r4d-figure { margin-inline: -5rem; }
   figure.r4d figcaption { max-width: calc(34em / 0.9 * 1.0625); margin-inline: 5rem; }

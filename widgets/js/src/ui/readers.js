@@ -74,6 +74,9 @@ export class Reader extends Emitter {
       clock.on("state", () => this.emit("playing", undefined)),
       session.on("point", () => this.#moved()),
     );
+    /** Where it opened: what a reset returns to. @type {Point} */
+    this.opened = { time: session.point.time, parameters: { ...session.point.parameters },
+      camera: manifest.point.camera ?? null };
     this.#arm(manifest.options.playing || "time");
     clock.loop = manifest.options.loop;
   }
@@ -125,7 +128,7 @@ export class Reader extends Emitter {
   /** Where the page opened. */
   reset() {
     this.pause();
-    this.change({ ...this.manifest.point, camera: this.manifest.point.camera ?? null }, { word: "reset" });
+    this.change(this.opened, { word: "reset" });
   }
 
   undo() {
