@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from reactive4d.signals.curves import clocks
 from reactive4d.signals.curves.pieces import Piece
 from reactive4d_widgets.lowering.numerals import Array
 from reactive4d_widgets.lowering.paces import arches
@@ -15,6 +16,7 @@ from reactive4d_widgets.lowering.terms import NotExactError, Shape, Term, polyno
 __all__ = ["Bit", "bits_of", "joined", "powers_of"]
 
 MOST_DEGREE = 3
+_EVEN = 1e-15  # how far handles in time may be from those that leave it alone
 
 
 class Bit(NamedTuple):
@@ -47,7 +49,7 @@ def bits_of(piece: Piece) -> list[Bit] | None:
     Raises:
         NotExactError: time runs through it as handles tell, or it is of a higher degree.
     """
-    if piece.clock is not None:
+    if piece.clock is not None and max(abs(a - b) for a, b in zip(piece.clock, clocks.EVEN, strict=True)) > _EVEN:
         raise NotExactError("handles in time")
     if len(piece.controls) > MOST_DEGREE + 1:
         raise NotExactError("a B-spline of a high degree")

@@ -122,8 +122,6 @@ def _sum(parts: list[tuple[Term, Term]], space: Space) -> Term:
 
 def _inside(piece: Piece, space: Space, of: Lower) -> Term:
     """A piece between two breaks."""
-    if piece.clock is not None:
-        raise NotExactError("handles in time")
     met: dict[Any, None] = {}
     for control in piece.controls:
         met.update(dict.fromkeys(control.terms))

@@ -242,7 +242,7 @@ def polynomials(times: Sequence[float], coefficients: Array, *, end: Any = None,
         end: what it is at the last border.
         shape: of its values.
     """
-    if not np.isfinite(coefficients).all():
+    if not np.isfinite(coefficients).all() or not (end is None or np.isfinite(end).all()):
         raise NotExactError("a polynomial too steep for floats")
     flat = [] if shape == () else [int(np.prod(np.array(shape)))]
     track: Track = {
