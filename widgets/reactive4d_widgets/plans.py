@@ -1,6 +1,6 @@
 """Plans: what is to be asked for a page: the channels of all nodes, over which time, for which values of parameters."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from reactive4d.arrays import ARRAY
@@ -56,13 +56,19 @@ class Plan:
         return frozenset(name for name, control in self.controls.items() if control.kind == "number")
 
 
-def planned(shown: Any, *, times: Any = None, parameters: Mapping[str, Any] | None = None) -> Plan:
+def planned(
+    shown: Any,
+    *,
+    times: Any = None,
+    parameters: Mapping[str, Any] | Callable[[Collection[str]], Mapping[str, Any]] | None = None,
+) -> Plan:
     """The plan of a scene or an illustration.
 
     Args:
         shown: a Scene, an Illustration or its class.
         times: None for its own span, (start, stop), or evenly spaced times.
-        parameters: by name, either one value, or several, for all of which the page is made.
+        parameters: by name, either one value, or several, for all of which the page is made; or a function that makes
+            these of the names of all parameters.
 
     Raises:
         TimeError: times that are neither.
@@ -83,7 +89,8 @@ def planned(shown: Any, *, times: Any = None, parameters: Mapping[str, Any] | No
     opens = {name: _opening(control, found.point.parameters) for name, control in controls.items()}
     base = dict(opens)
     stops: dict[str, tuple[Any, ...]] = {}
-    for name, value in (parameters or {}).items():
+    given = parameters(controls) if callable(parameters) else parameters
+    for name, value in (given or {}).items():
         control = controls.get(name)
         if control is None:
             raise unknown(name, controls, what="parameter")

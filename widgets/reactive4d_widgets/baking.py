@@ -1,0 +1,265 @@
+"""Baking: a scene, an illustration or a page becomes one file that needs no server.
+
+Everything that the page can show is asked beforehand, each cell once, and written down beside the viewer.
+"""
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from reactive4d.errors import ShapeError, UnknownNameError, hint, unknown
+from reactive4d.geometry.files import put
+from reactive4d.illustrations import Figure, Page
+from reactive4d.illustrations import subject as subject_of
+from reactive4d_widgets.bundles import packed, styles
+from reactive4d_widgets.coverings import Coverer
+from reactive4d_widgets.estimates import estimated, refuse_if_too_large, too_large
+from reactive4d_widgets.figures import Shown, checked_options
+from reactive4d_widgets.pages import document, heading, joined
+from reactive4d_widgets.plans import Plan, planned
+from reactive4d_widgets.progress import Bar, bar
+from reactive4d_widgets.prose import written
+from reactive4d_widgets.tables import Problem, tabulated
+
+__all__ = ["LIMIT", "Report", "bake"]
+
+LIMIT = 20_000_000
+POSTER = 60_000  # bytes of a picture, about
+ENDINGS = (".html", ".htm")
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What became of a page.
+
+    Attributes:
+        path: where it is.
+        size: bytes of the file.
+        asks: how often the model was asked; what was remembered is counted, too.
+        sizes: bytes by figure and channel: `pendulum/rod#points`.
+        problems: what went wrong in the model; the page says so where it happens.
+    """
+
+    path: Path
+    size: int
+    asks: int
+    sizes: Mapping[str, int]
+    problems: tuple[Problem, ...] = ()
+
+    def __str__(self) -> str:
+        told = f"{self.path}: {self.size / 1e3:.0f} KB, {self.asks} asks"
+        if not self.problems:
+            return told
+        count = len(self.problems)
+        lines = [f"{told}, {count} error{'' if count == 1 else 's'} in the model:", *map(str, self.problems[:10])]
+        return "\n  ".join(lines)
+
+    __repr__ = __str__
+
+
+def bake(
+    subject: Any,
+    path: str | os.PathLike[str],
+    *,
+    times: Any = None,
+    text: str = "",
+    title: str | None = None,
+    limit: float = LIMIT,
+    progress: bool = True,
+    lang: str = "en",
+    theme: str = "auto",
+    options: Mapping[str, Any] | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    **values: Any,
+) -> Report:
+    """Write a page that needs no server: figure, player, controls, and the text around them.
+
+    Args:
+        subject: a scene, an illustration or its class, or a Page of several.
+        path: of the file, .html; an old one stays until the new one is whole.
+        times: None for the subject's own, (start, stop), or evenly spaced times, seconds; 30 ticks per second.
+        text: Markdown; see docs/pages.md for what it may say. The figure stands above it unless it places it itself.
+        title: of the page; otherwise its first heading, or what the subject is called.
+        limit: bytes; a larger page is refused, mostly before it is asked for.
+        progress: whether a bar is shown, where there is a terminal.
+        lang: of the text, as in HTML.
+        theme: "light", "dark", or "auto": as the reader's system is.
+        options: how figures are shown at first: theme, height, loop, autoplay, edges, shading, ground, axes, grid,
+            shadows, playing.
+        parameters: values by name, for parameters that are called like one of these arguments.
+        **values: for each parameter one value, or several: those at which a reader may stop.
+
+    Returns:
+        A report.
+
+    Raises:
+        PageTooLargeError: it would be larger than the limit, with a table of what takes the bytes.
+        UnknownNameError: a parameter, an option, or something in the text that nobody knows.
+        ParameterError: a value that its parameter does not admit.
+        TimeError: times that are none.
+        ShapeError: something else that is not what it should be.
+        Reactive4dError: the scene is empty, or the viewer was not built.
+        OSError: the file cannot be written; an old one stays.
+
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import reactive4d as r4
+    >>> ball = r4.Sphere()
+    >>> _ = ball.translate(r4.vec(0, 0, np.abs(np.sin(r4.time))))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     report = bake(r4.Scene(ball=ball), f"{folder}/ball.html", times=(0, 2), text="# A *ball*")
+    ...     report.size == report.path.stat().st_size
+    True
+    """
+    target = _target(path)
+    packed()  # whoever lacks the viewer is told at once
+    styles()
+    page = subject if isinstance(subject, Page) else None
+    figures = {subject_of(subject).name: Figure(subject)} if page is None else dict(page.figures)
+    prose = page.text if page is not None and not text else text
+    given = {**values, **(parameters or {})}
+    _refuse_strangers(figures, given)
+    with bar(shown=progress, title=target.name) as told:
+        shown = _Kitchen(given, times, options, limit, told).cook(figures)
+    return _served(shown, prose, target, title=title, limit=limit, lang=lang, theme=theme)
+
+
+def _target(path: str | os.PathLike[str]) -> Path:
+    target = Path(path)
+    if target.suffix.lower() not in ENDINGS:
+        raise hint(
+            UnknownNameError(f"{target.name!r}: a page is no {target.suffix or 'file without an ending'}"),
+            f"{target.with_suffix('.html').name!r}; render writes pictures",
+        )
+    if not target.parent.is_dir():
+        raise hint(FileNotFoundError(2, "no such folder", str(target.parent)), "make it first, or choose another")
+    if target.is_dir():
+        raise IsADirectoryError(21, "this is a folder", str(target))
+    return target
+
+
+def _known(thing: Any) -> set[str]:
+    return {control.name for control in subject_of(thing).controls}
+
+
+def _refuse_strangers(figures: Mapping[str, Figure], given: Mapping[str, Any]) -> None:
+    """Each parameter must be known to some figure."""
+    if not figures:
+        raise hint(ShapeError("a page without a figure"), 'Page("…", pendulum=Pendulum())')
+    known = {name for figure in figures.values() for name in _known(figure.thing)}
+    for name in given:
+        if name not in known:
+            raise unknown(name, known, what="parameter")
+
+
+class _Kitchen:
+    """Makes the tables of figures, one after the other."""
+
+    def __init__(
+        self, given: Mapping[str, Any], times: Any, options: Mapping[str, Any] | None, limit: float, told: Bar
+    ) -> None:
+        self.given = given
+        self.times = times
+        self.options = options
+        self.limit = limit
+        self.told = told
+        self.spent = 0  # bytes
+
+    def cook(self, figures: Mapping[str, Figure]) -> list[Shown]:
+        """The figures with their tables; those that can share one do."""
+        self.spent = len(packed()[0]) + POSTER * len(figures)
+        done: list[Shown] = []
+        for name, figure in figures.items():
+            shown = self._figure(name, figure, done)
+            if shown.source == shown.name:
+                self.spent += sum(shown.table.sizes.values())
+            done.append(shown)
+        return done
+
+    def _figure(self, name: str, figure: Figure, done: list[Shown]) -> Shown:
+        own = dict(figure.options)
+        looks: dict[str, Any] = {**(self.options or {}), **(own.pop("options", None) or {})}
+        plan = planned(
+            figure.thing,
+            times=self.times if figure.times is None else figure.times,
+            parameters=lambda known: {**{n: v for n, v in self.given.items() if n in known}, **own},
+        )
+        options = checked_options(looks, plan.controls)
+        for other in done:
+            if _can_share(plan, options, other):
+                return Shown(name, figure.title, figure.thing, plan, other.table, other.source, figure.follow)
+        plan.asker.advance = self.told.advance
+        table = tabulated(
+            plan,
+            name=name,
+            title=figure.title,
+            options=options,
+            begun=self.told.begin,
+            survey=self._survey,
+        )
+        return Shown(name, figure.title, figure.thing, plan, table, name, figure.follow)
+
+    def _survey(self, plan: Plan, coverer: Coverer) -> None:
+        """Refuse what will be too large, and say how much is to come."""
+        shares = estimated(plan, coverer)
+        refuse_if_too_large(shares, self.limit, besides=self.spent)
+        self.told.expect(sum(share.asks for share in shares) + 3 * len(plan.channels))
+
+
+def _can_share(plan: Plan, options: Mapping[str, Any], other: Shown) -> bool:
+    """Whether a figure can be shown from another one's table, opened at another point."""
+    known = other.plan
+    if (
+        plan.subject.scene is not known.subject.scene
+        or plan.span != known.span
+        or plan.asker.stops != known.asker.stops
+        or options != other.table.manifest["options"]
+        or other.source != other.name
+    ):
+        return False
+    for entry in other.table.manifest["parameters"]:
+        name = entry["name"]
+        wish = plan.controls[name].encode(plan.opens[name])
+        here = other.table.manifest["point"]["parameters"][name]
+        if entry["grade"] == "fixed" and _listed(wish) != here:
+            return False
+        if entry["grade"] == "stops" and _listed(wish) not in entry["stops"]:
+            return False
+    return True
+
+
+def _listed(wire: Any) -> Any:
+    return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
+
+
+def _served(
+    shown: list[Shown], text: str, target: Path, *, title: str | None, limit: float, lang: str, theme: str
+) -> Report:
+    """Write the file."""
+    checked_options({"theme": theme}, {})
+    casts = [figure.cast() for figure in shown]
+    prose = written(text, casts)
+    called = title or prose.title or shown[0].title or shown[0].table.manifest["title"]
+    # A figure that the text does not place stands above it, below the title.
+    others = [cast.block("", None) for cast in casts if cast.name not in prose.placed]
+    if prose.title is not None and others:
+        first, _, rest = prose.html.partition("</h1>")
+        body = joined([f"{first}</h1>", *others, rest.lstrip("\n")])
+    else:
+        body = joined([heading(called) if prose.title is None else "", *others, prose.html])
+    data = {figure.name: figure.table.to_json() for figure in shown if figure.source == figure.name}
+    content = document(body, data, title=called, lang=lang, theme=theme).encode("utf-8")
+    sizes = {
+        f"{figure.name}/{channel}": size
+        for figure in shown
+        if figure.source == figure.name
+        for channel, size in figure.table.sizes.items()
+    }
+    if len(content) > limit:
+        raise too_large(len(content), limit, [(channel, "", size) for channel, size in sizes.items()])
+    put(target, content)
+    problems = tuple(problem for f in shown if f.source == f.name for problem in f.table.problems)
+    asks = sum(figure.table.asks for figure in shown if figure.source == figure.name)
+    return Report(target, len(content), asks, dict(sorted(sizes.items(), key=lambda item: -item[1])), problems)

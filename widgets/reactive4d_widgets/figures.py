@@ -1,0 +1,188 @@
+"""Figures: one figure of a page: its table, its poster, and how it stands in the page's HTML."""
+
+import base64
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+from reactive4d.boxes import answer
+from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.illustrations import Bookmark
+from reactive4d_widgets.displays import can_draw
+from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.playbacks import Playback
+from reactive4d_widgets.prose import Cast
+from reactive4d_widgets.stills import poster
+from reactive4d_widgets.tables import Table
+
+__all__ = ["OPTIONS", "Shown", "checked_options"]
+
+SIZE = (1280, 960)
+# One pixel that lets all light through: what stands where no picture can be drawn.
+EMPTY = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNgYGBgAAAABQABeqhXUAAAAABJRU5ErkJggg=="
+
+OPTIONS: Mapping[str, tuple[Any, ...] | type] = {
+    "theme": ("auto", "light", "dark"),
+    "height": int,
+    "loop": bool,
+    "autoplay": bool,
+    "edges": bool,
+    "shading": ("smooth", "flat", "wire"),
+    "ground": bool,
+    "axes": bool,
+    "grid": bool,
+    "shadows": bool,
+    "playing": str,
+}
+
+
+def checked_options(options: Mapping[str, Any] | None, parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """How a figure is shown at first, as it travels.
+
+    Raises:
+        UnknownNameError: an option that nobody knows, or a parameter that is to play and is none.
+        ShapeError: a value that is not of its kind.
+
+    >>> checked_options({"theme": "dark", "grid": True}, {})
+    {'theme': 'dark', 'grid': True}
+    """
+    for name, value in (options or {}).items():
+        wanted = OPTIONS.get(name)
+        if wanted is None:
+            raise unknown(name, OPTIONS, what="option of a figure")
+        if isinstance(wanted, tuple):
+            if value not in wanted:
+                raise hint(ShapeError(f"{name}: {value!r} is none of its values"), f"one of {', '.join(wanted)}")
+        elif not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
+            raise ShapeError(f"{name}: expected {wanted.__name__}, got {value!r}")
+    playing = (options or {}).get("playing", "time")
+    if playing != "time" and playing not in parameters:
+        raise unknown(playing, ["time", *parameters], what="parameter to play")
+    return dict(options or {})
+
+
+@dataclass(slots=True)
+class Shown:
+    """A figure that has its table.
+
+    Attributes:
+        name: how it is called on its page.
+        title: for a person to read; None for the table's own.
+        thing: what it shows.
+        plan: what was asked for.
+        table: what was answered.
+        source: the name of the figure whose data it shares; its own if it has its own.
+        follow: the name of a figure with which it shares a point.
+    """
+
+    name: str
+    title: str | None
+    thing: Any
+    plan: Plan
+    table: Table
+    source: str
+    follow: str | None = None
+
+    @property
+    def point(self) -> Mapping[str, Any]:
+        """Where it opens."""
+        if self.source == self.name:
+            return self.table.manifest["point"]
+        wires = {name: self.plan.controls[name].encode(value) for name, value in self.plan.opens.items()}
+        return {**self.table.manifest["point"], "time": self._time(), "parameters": wires}
+
+    def _time(self) -> float:
+        return min(max(self.plan.subject.point.time, self.plan.span.start), self.plan.span.stop)
+
+    def cast(self) -> Cast:
+        """What the prose may name of it."""
+        played = Playback({"manifest": self.table.manifest, "segments": self.table.segments, "chunks": []})
+        numbers: dict[str, Callable[[str], str]] = {}
+        for entry in self.table.manifest["values"]:
+            value = self._played(played, f"#values.{entry['name']}")
+            numbers[entry["name"]] = lambda spec, v=value, e=entry: _formatted(v, spec or e["format"], e["unit"])
+        for entry in self.table.manifest["parameters"]:
+            wire = self.point["parameters"][entry["name"]]
+            numbers[entry["name"]] = lambda spec, w=wire, e=entry: _worded(w, spec, e)
+        return Cast(
+            self.name,
+            numbers,
+            frozenset(entry["name"] for entry in self.table.manifest["parameters"]),
+            frozenset(node["name"] for node in self.table.manifest["nodes"]),
+            lambda caption, follow: self.html(caption, follow or self.follow, self._played(played, "#alt")),
+        )
+
+    def _played(self, played: Playback, channel: str) -> Any:
+        """What a channel is where the figure opens; None where that is an error, or not known."""
+        t, wires = self.point["time"], self.point["parameters"]
+        try:
+            return played.at(channel, t, wires) if played.knows(channel, t, wires) else None
+        except RuntimeError:
+            return None
+
+    def html(self, caption: str, follow: str | None, alt: str | None) -> str:
+        """The figure as it stands in a page.
+
+        Args:
+            caption: HTML, which stands below it; nothing if it is empty.
+            follow: the name of the figure that it follows.
+            alt: what its picture shows.
+        """
+        attributes = {"name": self.name, "follow": follow}
+        if self.source != self.name:
+            link = Bookmark(self.point["time"], self.point["parameters"]).to_link()
+            attributes.update({"source": self.source, "point": link, "title": self.title})
+        written = "".join([f' {key}="{escape(value)}"' for key, value in attributes.items() if value])
+        told = alt or self.title or self.table.manifest["title"]
+        picture = f'<img class="r4d-poster" alt="{escape(told)}" {self._picture()}>'
+        figure = f"<r4d-figure{written}>{picture}</r4d-figure>"
+        if not caption:
+            return figure
+        return f'<figure class="r4d">{figure}<figcaption>{caption}</figcaption></figure>'
+
+    def _picture(self) -> str:
+        """The poster, as the attributes of an image."""
+        width, height = SIZE
+        scene, t = self.plan.subject.scene, self.point["time"]
+        given = self.plan.opens
+        # Where something of the scene is an error there is no frame, and no picture.
+        if not can_draw() or answer(scene.frame, t, **given).error is not None:
+            return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'
+        data = poster(self.thing, t=t, size=SIZE, camera=self._camera(scene.at(t, **given)), **given)
+        return f'width="{width}" height="{height}" src="data:image/png;base64,{base64.b64encode(data).decode("ascii")}"'
+
+    def _camera(self, frame: Any) -> Any:
+        """From where the viewer looks at first: a reader's camera, the scene's, or the view that holds everything."""
+        own = self.point["camera"]
+        if own is not None:
+            return own
+        if any(node.primitive == "camera" and node.visible for node in frame.values()):
+            return None
+        view = self.table.manifest["view"]
+        return {key: view[key] for key in ("position", "target", "up", "fov")}
+
+
+def _formatted(value: Any, spec: str, unit: str) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, str):
+        return format(value, spec) if spec and not re.search(r"[eEfFgGn%]$", spec) else value
+    numbers = [float(x) for x in value] if hasattr(value, "__len__") else [float(value)]
+    text = ", ".join([format(number, spec or ".4g") for number in numbers])
+    return f"{text} {unit}" if unit else text
+
+
+def _worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:
+    """A parameter's value as a reader finds it before the page has come to life."""
+    if wire is None:
+        return "none"
+    if entry["kind"] == "select":
+        labels = zip(entry["options"] or (), entry["labels"] or (), strict=True)
+        return next((label for option, label in labels if option == wire), str(wire))
+    if entry["kind"] == "boolean":
+        return "on" if wire else "off"
+    if entry["kind"] == "color":
+        return str(wire)
+    return _formatted(wire, spec, entry["unit"])
