@@ -9,7 +9,7 @@ import { ElementBase } from "./bases.js";
 import { make, prefers } from "./elements.js";
 import { bareFor } from "./hashes.js";
 import { Life } from "./lives.js";
-import { figureStyles } from "./styles.js";
+import { figureStyles } from "./figure-styles.js";
 
 /**
  * @typedef {import("../core/types.js").Transport} Transport
