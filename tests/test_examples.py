@@ -22,9 +22,10 @@ def run(name: str) -> dict[str, Any]:
 def test_every_program_runs_and_its_scene_can_be_asked_at_any_time(path: Path):
     """Backwards, forwards, before the first key and after the last."""
     left = runpy.run_path(str(path))
-    scene = left.get("scene") or r4.Scene({n: x for n, x in left.items() if isinstance(x, r4.Object)})
+    readers = [x() for x in left.values() if isinstance(x, type) and issubclass(x, r4.Illustration)]
+    shown = left.get("scene") or r4.Scene({n: x for n, x in left.items() if isinstance(x, r4.Object)})
     for t in (3.0, -1.0, 0.5, 100.0):
-        frame = scene.at(t)
+        frame = (readers[0] if readers else shown).at(t)
         assert list(frame)
         assert all(np.isfinite(node.matrix).all() for node in frame.values())
 
@@ -95,3 +96,25 @@ def test_the_part_follows_the_drill():
     part = left["part"]
     assert part.volume.at(0.0) == pytest.approx(6.0, rel=1e-6)
     assert part.volume.at(2.0) == pytest.approx(6.0 - math.pi * 0.2**2, rel=2e-3)
+
+
+def test_the_pendulum_swings_as_its_reader_says():
+    """The tenth program: F002, a page of an electronic book: the reader drags the parameters, the model follows."""
+    pendulum_class = run("ex10_illustration")["Pendulum"]
+    short, long = pendulum_class(length=0.5), pendulum_class(length=2.0, angle=-45.0)
+    for reader in (short, long, short):
+        for t in (0.0, 0.7, 2.0):
+            turn = math.radians(reader.angle * math.cos(math.sqrt(9.81 / reader.length) * t))
+            frame = reader.at(t)
+            bob = (-reader.length * math.sin(turn), 0.0, -reader.length * math.cos(turn))
+            assert frame["bob"].matrix[:3, 3] == pytest.approx(bob)
+            assert frame["rod"].matrix[:3, 3] == pytest.approx([x / 2 for x in bob])
+            assert np.ptp(frame["rod"].drawn.points[:, 2]) == pytest.approx(reader.length)
+    assert short.scene is long.scene
+    with r4.log() as events:
+        short.angle = 30.0
+        short.at(0.7)
+    parts = {event.name.rpartition(".")[2] for event in events if event.kind == "evaluated"}
+    assert not parts & {"points", "faces", "surface"}, "the rod keeps its mesh while the angle is dragged"
+    with pytest.raises(ValueError, match=r"'Pendulum.length' must be at most 2.0, not 3"):
+        short.length = 3.0
