@@ -46,6 +46,11 @@ export class Axes {
     parent.add(this.#mesh);
   }
 
+  /** The context is lost: forget what was on the card. */
+  forget() {
+    this.#mesh.geometry.dispose();
+  }
+
   /** Free them. */
   dispose() {
     this.#mesh.removeFromParent();

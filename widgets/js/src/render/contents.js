@@ -17,7 +17,9 @@ import { along, carry, determinant, distance, length, subtract } from "./vectors
 /** @typedef {{x: number, y: number, width: number, height: number}} Place */
 /** @typedef {{set: (label: Label) => void, delete: (name: string) => void}} LabelSink */
 
+/** CSS pixels from a line or a point at which it is still met. */
 const REACH = 7;
+const ASIDE = [3.7e-5, 6.1e-5, 7.3e-5];
 
 /** The things of one figure. */
 export class Contents {
@@ -133,6 +135,7 @@ export class Contents {
     if (meshes.length > 0 || gone.length > 0) {
       this.#batches.update(meshes, gone);
       this.moved = true;
+      if (this.#highlight !== null || this.#hover !== null) this.#outline();
     }
     this.#ball = null;
     this.#last = nodes;
@@ -184,7 +187,9 @@ export class Contents {
    * @param {number[]} to
    */
   hides(from, to) {
-    const ray = { origin: from, direction: subtract(to, from) };
+    // A little aside: through the very edge of two triangles one would go twice.
+    const origin = from.map((c, k) => c + ASIDE[k] * this.home.radius);
+    const ray = { origin, direction: subtract(to, origin) };
     for (const { state, shape } of this.#batches.places.values()) {
       const local = isClear(state) ? null : localRay(ray, state.matrix);
       if (local !== null && hides(local, shape.content.surface)) return true;
@@ -204,7 +209,16 @@ export class Contents {
     this.#hover = hover;
     const after = [...this.#drawn.keys()].filter((name) => this.#marked(name));
     for (const name of new Set([...before, ...after])) this.#redress(name);
+    this.#outline();
     return before.length + after.length > 0;
+  }
+
+  /** The context is lost: forget what was on the card, so that it is brought there again. */
+  forget() {
+    for (const { content } of this.#batches) content.forget();
+    for (const curve of this.#curves.values()) curve.forget();
+    this.#lights.forget();
+    this.moved = true;
   }
 
   /** Free everything. */
@@ -218,6 +232,10 @@ export class Contents {
   /** @param {string} name */
   #marked(name) {
     return name === this.#hover || name === this.#highlight || name.startsWith(`${this.#highlight}/`);
+  }
+
+  #outline() {
+    for (const { names, content } of this.#batches) content.outline(names.some((name) => this.#marked(name)));
   }
 
   /** @param {string} name */

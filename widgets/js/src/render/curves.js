@@ -58,6 +58,11 @@ export class Curve {
     this.#tint(state, marked);
   }
 
+  /** The context is lost: forget what was on the card. */
+  forget() {
+    this.#object?.geometry.dispose();
+  }
+
   /** Free it. */
   dispose() {
     if (this.#object === null) return;

@@ -289,6 +289,13 @@ export class Floor {
     this.#uniforms.shade.value = this.#image.texture;
   }
 
+  /** The context is lost: forget what was on the card. */
+  forget() {
+    this.#image?.dispose();
+    this.#quad.geometry.dispose();
+    this.#quad.material.dispose();
+  }
+
   /** Free it. */
   dispose() {
     this.#image?.dispose();

@@ -139,6 +139,12 @@ export class Lights {
     }
   }
 
+  /** The context is lost: forget the shadows. */
+  forget() {
+    for (const { light } of this.#own.values()) light.dispose();
+    this.#key.dispose();
+  }
+
   /** Free all. */
   dispose() {
     for (const name of [...this.#own.keys()]) this.delete(name);

@@ -5,20 +5,22 @@
  * what is marked (hovered, or named by the prose).
  */
 import { BackSide, Color, DoubleSide, FrontSide, MeshPhongMaterial, ShaderMaterial, Vector2 } from "three";
+import * as shaders from "./shaders.js";
 
 /** @typedef {import("three").Material} Material */
 /** @typedef {"smooth"|"flat"|"wire"} Shading */
-/** @typedef {{shading: Shading, painted: boolean, side: "both"|"front"|"back"}} Finish */
+/** @typedef {{shading: Shading|"veil", painted: boolean, side: "both"|"front"|"back"}} Finish veil: hides, unseen */
 
-/** The three letters' lengths that all figures share; written before a figure is drawn. */
+/** What all figures share, and each writes before it is drawn. */
 export function sharedUniforms() {
   return {
     /** of the picture that is drawn, in its own pixels */
     resolution: { value: new Vector2(1, 1) },
     /** drawn pixels per CSS pixel */
     density: { value: 1 },
-    /** what marks a thing */
-    accent: { value: new Color("#e69f00") },
+    /** what marks a thing, and what marks it if it has nearly that colour itself */
+    accent: { value: new Color() },
+    accent2: { value: new Color() },
     /** how strong crease lines are */
     ink: { value: 0.5 },
     /** towards what the grazing rim of a thing goes */
@@ -28,131 +30,6 @@ export function sharedUniforms() {
 }
 
 /** @typedef {ReturnType<typeof sharedUniforms>} SharedUniforms */
-
-const MARK = /* glsl */ `
-  float mark = step( 1.5, vTint.a );
-  diffuseColor = vec4( vTint.rgb, vTint.a - 2.0 * mark );
-`;
-
-const RIM = /* glsl */ `
-  float grazing = 1.0 - saturate( abs( dot( normal, normalize( vViewPosition ) ) ) );
-  outgoingLight = mix( outgoingLight, rim, rimStrength * pow( grazing, 4.0 ) );
-  outgoingLight = mix( outgoingLight, accent, mark * ( 0.16 + 0.6 * grazing * grazing ) );
-`;
-
-// The cofactors of the matrix carry normals rightly whatever it does, shear and stretch included.
-const NORMAL = /* glsl */ `
-  vec3 transformedNormal = objectNormal;
-  #ifdef USE_INSTANCING
-    mat3 im = mat3( instanceMatrix );
-    transformedNormal = cross( im[ 1 ], im[ 2 ] ) * objectNormal.x + cross( im[ 2 ], im[ 0 ] ) * objectNormal.y
-      + cross( im[ 0 ], im[ 1 ] ) * objectNormal.z;
-  #endif
-  transformedNormal = normalMatrix * transformedNormal;
-  #ifdef FLIP_SIDED
-    transformedNormal = - transformedNormal;
-  #endif
-`;
-
-const STROKE_VERTEX = /* glsl */ `
-  attribute vec3 other;
-  attribute float side;
-  attribute vec4 tint;
-  uniform vec2 resolution;
-  uniform float density;
-  uniform float width;
-  uniform float lift;
-  varying vec4 vTint;
-  varying vec2 vAcross;
-
-  vec4 seen( vec3 p ) {
-    vec4 local = vec4( p, 1.0 );
-    #ifdef USE_INSTANCING
-      local = instanceMatrix * local;
-    #endif
-    vec4 view = modelViewMatrix * local;
-    view.xyz *= 1.0 - lift;
-    return view;
-  }
-
-  void main() {
-    vec4 own = seen( position );
-    vec4 far = seen( other );
-    float near = - 1e-3;
-    if ( own.z > near && far.z < near ) own = mix( own, far, ( own.z - near ) / ( own.z - far.z ) );
-    if ( far.z > near && own.z < near ) far = mix( far, own, ( far.z - near ) / ( far.z - own.z ) );
-    vec4 a = projectionMatrix * own;
-    vec4 b = projectionMatrix * far;
-    vec2 way = ( b.xy / b.w - a.xy / a.w ) * resolution;
-    float size = length( way );
-    vec2 ahead = size > 1e-4 ? way / size : vec2( 1.0, 0.0 );
-    float reach = 0.5 * width * density + 1.0;
-    float hand = sign( side );
-    vec2 offset = vec2( - ahead.y, ahead.x ) * hand * reach - ahead * 0.5 * width * density;
-    a.xy += 2.0 * offset / resolution * a.w;
-    gl_Position = a;
-    vTint = tint;
-    vAcross = vec2( ( abs( side ) > 1.5 ? - hand : hand ) * reach * a.w, a.w );
-  }
-`;
-
-const STROKE_FRAGMENT = /* glsl */ `
-  uniform float density;
-  uniform float width;
-  uniform float ink;
-  uniform float crease;
-  uniform vec3 accent;
-  varying vec4 vTint;
-  varying vec2 vAcross;
-
-  void main() {
-    float mark = step( 1.5, vTint.a );
-    vec4 paint = vec4( vTint.rgb, vTint.a - 2.0 * mark );
-    float light = dot( paint.rgb, vec3( 0.2126, 0.7152, 0.0722 ) );
-    vec3 dark = light < 0.02 ? paint.rgb + 0.06 : paint.rgb * 0.12;
-    paint = mix( paint, vec4( dark, ink * sqrt( paint.a ) ), crease );
-    paint = mix( paint, vec4( accent, 1.0 ), mark );
-    float inside = 0.5 * width * density + 0.5 - abs( vAcross.x / vAcross.y );
-    paint.a *= clamp( inside, 0.0, 1.0 );
-    if ( paint.a < 0.02 ) discard;
-    gl_FragColor = paint;
-    #include <colorspace_fragment>
-  }
-`;
-
-const DOT_VERTEX = /* glsl */ `
-  attribute vec4 tint;
-  uniform float density;
-  uniform float width;
-  varying vec4 vTint;
-
-  void main() {
-    vec4 view = modelViewMatrix * vec4( position, 1.0 );
-    view.xyz *= 0.998;
-    gl_Position = projectionMatrix * view;
-    gl_PointSize = width * density + 1.0;
-    vTint = tint;
-  }
-`;
-
-const DOT_FRAGMENT = /* glsl */ `
-  uniform float density;
-  uniform float width;
-  uniform vec3 accent;
-  varying vec4 vTint;
-
-  void main() {
-    float mark = step( 1.5, vTint.a );
-    float size = width * density;
-    float away = length( gl_PointCoord - 0.5 ) * ( size + 1.0 );
-    vec4 paint = vec4( mix( vTint.rgb, accent, mark ), vTint.a - 2.0 * mark );
-    paint.rgb *= 1.0 - 0.45 * smoothstep( 0.5 * size - 1.6 * density, 0.5 * size - 0.6 * density, away );
-    paint.a *= clamp( 0.5 * size + 0.5 - away, 0.0, 1.0 );
-    if ( paint.a < 0.02 ) discard;
-    gl_FragColor = paint;
-    #include <colorspace_fragment>
-  }
-`;
 
 const SIDES = { both: DoubleSide, front: FrontSide, back: BackSide };
 
@@ -186,17 +63,35 @@ export class Materials {
     return this.#once("rules", () => this.#stroke({ width: 1.4, lift: 0, crease: 0, depthWrite: false }));
   }
 
+  /** Round what is marked. */
+  outlines() {
+    return this.#once("outlines", () => {
+      const { resolution, density, accent, accent2 } = this.uniforms;
+      return new ShaderMaterial({
+        vertexShader: shaders.OUTLINE_VERTEX,
+        fragmentShader: shaders.OUTLINE_FRAGMENT,
+        uniforms: { resolution, density, accent, accent2 },
+        side: BackSide,
+      });
+    });
+  }
+
   /** Round points. */
   dots() {
     return this.#once("dots", () => {
-      const { density, accent } = this.uniforms;
+      const { density, accent, accent2 } = this.uniforms;
       return new ShaderMaterial({
-        vertexShader: DOT_VERTEX,
-        fragmentShader: DOT_FRAGMENT,
-        uniforms: { density, accent, width: { value: 8 } },
+        vertexShader: shaders.DOT_VERTEX,
+        fragmentShader: shaders.DOT_FRAGMENT,
+        uniforms: { density, accent, accent2, width: { value: 8 } },
         transparent: true,
       });
     });
+  }
+
+  /** The context is lost: forget the programs. */
+  forget() {
+    for (const material of this.#made.values()) material.dispose();
   }
 
   /** Free all of them. */
@@ -227,24 +122,26 @@ export class Materials {
       side: SIDES[side],
       transparent: clear,
       depthWrite: !clear,
+      colorWrite: shading !== "veil",
       polygonOffset: true,
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
     });
-    const { accent, rim, rimStrength } = this.uniforms;
+    if (shading === "wire") material.defines = { WIRE: "" };
+    const { accent, accent2, rim, rimStrength } = this.uniforms;
     material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, { accent, rim, rimStrength });
+      Object.assign(shader.uniforms, { accent, accent2, rim, rimStrength });
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", "#include <common>\nattribute vec4 tint;\nvarying vec4 vTint;")
         .replace("#include <color_vertex>", "#include <color_vertex>\nvTint = tint;")
-        .replace("#include <defaultnormal_vertex>", NORMAL);
+        .replace("#include <defaultnormal_vertex>", shaders.NORMAL);
       shader.fragmentShader = shader.fragmentShader
         .replace(
           "#include <common>",
-          "#include <common>\nvarying vec4 vTint;\nuniform vec3 accent;\nuniform vec3 rim;\nuniform float rimStrength;",
+          `#include <common>\nvarying vec4 vTint;\nuniform vec3 rim;\nuniform float rimStrength;\n${shaders.MARKER}`,
         )
-        .replace("#include <color_fragment>", `${MARK}\n#include <color_fragment>`)
-        .replace("#include <opaque_fragment>", `${RIM}\n#include <opaque_fragment>`);
+        .replace("#include <color_fragment>", `${shaders.MARK}\n#include <color_fragment>`)
+        .replace("#include <opaque_fragment>", `${shaders.RIM}\n#include <opaque_fragment>`);
     };
     material.customProgramCacheKey = () => "tinted";
     return material;
@@ -252,14 +149,15 @@ export class Materials {
 
   /** @param {{width: number, lift: number, crease: number, depthWrite: boolean}} style */
   #stroke({ width, lift, crease, depthWrite }) {
-    const { resolution, density, accent, ink } = this.uniforms;
+    const { resolution, density, accent, accent2, ink } = this.uniforms;
     return new ShaderMaterial({
-      vertexShader: STROKE_VERTEX,
-      fragmentShader: STROKE_FRAGMENT,
+      vertexShader: shaders.STROKE_VERTEX,
+      fragmentShader: shaders.STROKE_FRAGMENT,
       uniforms: {
         resolution,
         density,
         accent,
+        accent2,
         ink,
         width: { value: width },
         lift: { value: lift },

@@ -119,6 +119,8 @@ export class MeshBatch {
   #meshes = [];
   /** @type {InstancedMesh|null} */
   #lines = null;
+  /** @type {InstancedMesh|null} */
+  #outline = null;
   /** @type {InstancedBufferAttribute} */
   #matrices;
   /** @type {InstancedBufferAttribute} */
@@ -147,17 +149,15 @@ export class MeshBatch {
     shape.users += 1;
   }
 
-  /** @returns {readonly Object3D[]} */
-  get objects() {
-    return this.#lines === null ? this.#meshes : [...this.#meshes, this.#lines];
+  get #all() {
+    return [...this.#meshes, ...[this.#lines, this.#outline].filter((mesh) => mesh !== null)];
   }
 
   /** @param {number} count of members */
   resize(count) {
     this.count = count;
     if (count > this.#capacity) this.#grow(count);
-    for (const mesh of this.#meshes) mesh.count = count;
-    if (this.#lines !== null) this.#lines.count = count;
+    for (const mesh of this.#all) mesh.count = count;
   }
 
   /**
@@ -197,9 +197,28 @@ export class MeshBatch {
 
   /** @param {Looks} looks */
   restyle(looks) {
+    const finishes = this.#finishes().length;
     this.#looks = looks;
-    this.#meshes.forEach((mesh, i) => (mesh.material = this.#material(i)));
-    this.#setLines();
+    if (this.#finishes().length === finishes) {
+      this.#finishes().forEach((finish, i) => (this.#meshes[i].material = this.#materials.surface(finish)));
+      this.#setLines();
+    } else this.#build();
+  }
+
+  /**
+   * Outline what is marked; through a clear thing one would see the outline.
+   * @param {boolean} marked whether a member is
+   */
+  outline(marked) {
+    const on = marked && !this.clear;
+    if (on === (this.#outline !== null)) return;
+    if (this.#outline === null) {
+      const { attributes, index } = this.shape;
+      this.#outline = this.#instances(attributes, index, this.#materials.outlines());
+    } else {
+      this.#remove(this.#outline, true);
+      this.#outline = null;
+    }
   }
 
   /**
@@ -220,21 +239,38 @@ export class MeshBatch {
   /** @param {number} count */
   #grow(count) {
     const old = { matrices: this.#matrices, tints: this.#tints };
-    this.#drop();
     this.#capacity = count === 1 ? 1 : Math.max(8, 2 ** Math.ceil(Math.log2(count)));
     this.#matrices = instanced(this.#capacity, 16);
     this.#tints = instanced(this.#capacity, 4);
     this.#matrices.array.set(old.matrices.array);
     this.#tints.array.set(old.tints.array);
+    this.#build();
+  }
+
+  #build() {
+    this.#drop();
     const { attributes, index } = this.shape;
-    for (let i = 0; i < (this.clear ? 2 : 1); i += 1) {
-      const mesh = this.#instances(attributes, index, this.#material(i));
-      mesh.layers.enable(CASTERS);
-      mesh.castShadow = !this.clear;
+    this.#finishes().forEach((finish, i) => {
+      const mesh = this.#instances(attributes, index, this.#materials.surface(finish));
+      mesh.renderOrder = this.clear ? ORDER_CLEAR + 0.25 * i : i;
+      if (i === 0) mesh.layers.enable(CASTERS);
+      mesh.castShadow = i === 0 && !this.clear;
       mesh.receiveShadow = true;
       this.#meshes.push(mesh);
-    }
+    });
     this.#setLines();
+  }
+
+  /**
+   * How its meshes are finished: what is clear shows its inside first, a wire hides what is behind it.
+   * @returns {import("./materials.js").Finish[]}
+   */
+  #finishes() {
+    const { shading } = this.#looks;
+    const { painted } = this.shape;
+    if (this.clear) return /** @type {const} */ (["back", "front"]).map((side) => ({ shading, painted, side }));
+    if (shading !== "wire") return [{ shading, painted, side: "both" }];
+    return /** @type {const} */ (["veil", "wire"]).map((finish) => ({ shading: finish, painted, side: "both" }));
   }
 
   #setLines() {
@@ -272,17 +308,19 @@ export class MeshBatch {
     return mesh;
   }
 
-  /** @param {number} i */
-  #material(i) {
-    const side = this.clear ? (i === 0 ? "back" : "front") : "both";
-    return this.#materials.surface({ shading: this.#looks.shading, painted: this.shape.painted, side });
+  /** The context is lost: forget what was on the card, so that it is brought there again. */
+  forget() {
+    for (const mesh of this.#all) {
+      mesh.dispose();
+      mesh.geometry.dispose();
+    }
   }
 
   #drop() {
-    for (const mesh of this.#meshes) this.#remove(mesh);
+    for (const mesh of this.#all) this.#remove(mesh);
     this.#meshes = [];
-    if (this.#lines !== null) this.#remove(this.#lines);
     this.#lines = null;
+    this.#outline = null;
   }
 
   /**
@@ -298,7 +336,7 @@ export class MeshBatch {
       mesh.instanceMatrix = NO_MATRICES;
     }
     mesh.dispose();
-    if (this.shape.users > 1) {
+    if (this.shape.users > 1 || alone) {
       for (const name of Object.keys(geometry.attributes)) if (name !== "tint") geometry.deleteAttribute(name);
       geometry.setIndex(null);
     }

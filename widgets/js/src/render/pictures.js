@@ -103,6 +103,7 @@ export class Picture {
     uniforms.resolution.value.set(width, height);
     uniforms.density.value = density;
     uniforms.accent.value.set(this.#theme.accent);
+    uniforms.accent2.value.set(this.#theme.accent2);
     uniforms.ink.value = this.#theme.ink;
     uniforms.rim.value.setRGB(this.#theme.rim, this.#theme.rim, this.#theme.rim);
     uniforms.rimStrength.value = this.#theme.rimStrength;
@@ -198,6 +199,13 @@ export class Picture {
     const camera = this.#camera;
     const m = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse).transpose().elements;
     return this.contents.pick(this.ray(eye, x, y), { x, y, ...this.size }, m);
+  }
+
+  /** The context is lost: forget what was on the card. */
+  forget() {
+    this.contents.forget();
+    this.#floor.forget();
+    this.#axes?.forget();
   }
 
   /** Free everything. */

@@ -25,6 +25,8 @@ export class Stage {
   materials = new Materials();
   /** @type {WebGLRenderer|null} */
   #renderer = null;
+  /** @type {WebGLRenderer["info"]|null} */
+  #info = null;
   /** @type {Blur|null} */
   #blur = null;
   #failed = false;
@@ -48,7 +50,7 @@ export class Stage {
 
   /** Counts of what is on the graphics card; null before the first picture. */
   get info() {
-    return this.#renderer?.info ?? null;
+    return this.#renderer?.info ?? this.#info;
   }
 
   /** Whether there is a context to draw with. */
@@ -70,6 +72,7 @@ export class Stage {
     if (entry.timer !== null) clearTimeout(entry.timer);
     this.#watch?.unobserve(view.canvas);
     this.#entries.delete(view);
+    if (this.#entries.size === 0) this.#blur?.dispose(); // it comes back with the next figure
   }
 
   /**
@@ -113,7 +116,11 @@ export class Stage {
     this.#watch?.disconnect();
     this.materials.dispose();
     this.#blur?.dispose();
+    this.#info = this.info;
     this.#renderer?.dispose();
+    this.#renderer?.forceContextLoss();
+    this.#renderer = null;
+    this.#failed = true;
   }
 
   #schedule() {
@@ -192,6 +199,10 @@ export class Stage {
   /** @param {boolean} lost */
   #setLost(lost) {
     this.#lost = lost;
+    if (lost) {
+      this.materials.forget();
+      this.#blur?.dispose();
+    }
     for (const entry of this.#entries.values()) {
       entry.dirty = true;
       if (lost) entry.view.contextLost();

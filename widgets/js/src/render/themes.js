@@ -8,6 +8,7 @@
  * @property {number} rimStrength
  * @property {number} ink how strong crease lines are
  * @property {string} accent what marks a thing
+ * @property {string} accent2 what marks a thing that has nearly that colour
  * @property {boolean} dark
  */
 
@@ -20,6 +21,7 @@ export const THEMES = {
     rimStrength: 0.3,
     ink: 0.5,
     accent: "#e69f00",
+    accent2: "#0072b2",
     dark: false,
   },
   dark: {
@@ -29,6 +31,7 @@ export const THEMES = {
     rimStrength: 0.07,
     ink: 0.6,
     accent: "#ffc247",
+    accent2: "#56b4e9",
     dark: true,
   },
 };

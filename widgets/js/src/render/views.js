@@ -37,6 +37,7 @@ export class View {
   /** @type {Snapshot|null} */
   #snapshot = null;
   #stale = true;
+  #turned = true;
   #context;
   #observer;
   #dark = matchMedia("(prefers-color-scheme: dark)");
@@ -221,7 +222,7 @@ export class View {
 
   /** The stage's: there is nothing to draw with any more. */
   contextLost() {
-    this.#picture.contents.moved = true;
+    this.#picture.forget();
     this.#events.emit("lost", null);
   }
 
@@ -262,6 +263,7 @@ export class View {
   }
 
   #restyle() {
+    this.#turned = true;
     this.#picture.restyle(this.#options, this.#theme);
     this.#stage.invalidate(this, true);
   }
@@ -272,6 +274,7 @@ export class View {
       this.#stale = false;
       this.#picture.contents.show(this.#snapshot);
       this.#navigator.follow(this.#snapshot);
+      this.#turned = true;
     }
     return this.#picture;
   }
@@ -279,9 +282,13 @@ export class View {
   /** The same, looked at as it is to be looked at now. */
   #aimed() {
     const picture = this.#ready();
-    const { clientWidth, clientHeight } = this.canvas;
-    picture.size.width = Math.max(1, clientWidth);
-    picture.size.height = Math.max(1, clientHeight);
+    const width = Math.max(1, this.canvas.clientWidth);
+    const height = Math.max(1, this.canvas.clientHeight);
+    const resized = width !== picture.size.width || height !== picture.size.height;
+    if (!this.#turned && !resized && !this.#navigator.gliding) return picture;
+    picture.size.width = width;
+    picture.size.height = height;
+    this.#turned = false;
     picture.aim(this.#navigator.eye(performance.now()), this.#navigator);
     return picture;
   }
@@ -296,6 +303,7 @@ export class View {
   }
 
   #looked() {
+    this.#turned = true;
     this.#stage.invalidate(this);
     this.#events.emit("camera", this.camera);
   }
