@@ -168,12 +168,17 @@ def _surface(node: Node, mesh: Mesh, cut: Split, color: Any) -> Surface:
 
 
 def _normals(points: Floats, faces: Indices) -> NDArray[np.float64]:
-    """(V, 3), the sum of the faces round each vertex, each as long as its area, as the browser's renderer takes it."""
-    a, b, c = points.astype(np.float64)[faces].swapaxes(0, 1)
-    across = np.cross(b - a, c - a)
+    """(V, 3), the sum of the faces round each vertex, each by its angle there (Thürmer and Wüthrich 1998)."""
+    corners = points.astype(np.float64)[faces]
+    ahead = corners[:, [1, 2, 0]] - corners
+    ahead /= np.maximum(np.linalg.norm(ahead, axis=2, keepdims=True), 1e-300)
+    angles = np.arccos(np.clip(-(ahead * ahead[:, [2, 0, 1]]).sum(axis=2), -1.0, 1.0))
+    across = np.cross(ahead[:, 0], ahead[:, 1])
+    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
+    weighed = angles[:, :, None] * across[:, None, :]
     total = np.zeros((len(points), 3))
     for i in range(3):
-        total[:, i] = np.bincount(faces.ravel(), np.repeat(across[:, i], 3), len(points))
+        total[:, i] = np.bincount(faces.ravel(), weighed[:, :, i].ravel(), len(points))
     return total
 
 

@@ -45,6 +45,7 @@ class Lamp:
         position: (3,), where it stands; None where it shines from afar.
         angle: radians, the half of its cone; None where it shines all round.
         reach: metres, how far it goes; None without limit.
+        shadows: whether things throw shadows in it.
     """
 
     color: Array
@@ -52,6 +53,7 @@ class Lamp:
     position: Array | None = None
     angle: float | None = None
     reach: float | None = None
+    shadows: bool = False
 
 
 # A studio that goes round with the eye, as if one turned the things on a table: to the right, upwards, to the eye.
@@ -98,7 +100,8 @@ def _studio(view: View) -> tuple[Sky, tuple[Lamp, ...]]:
     front = np.cross(right, up)
     lamps: list[Lamp] = []
     for (x, y, z), intensity in ((KEY, KEY_INTENSITY), (FILL, FILL_INTENSITY)):
-        lamps.append(Lamp(np.full(3, intensity), -_unit(x * right + y * up + z * front)))
+        towards = -_unit(x * right + y * up + z * front)
+        lamps.append(Lamp(np.full(3, intensity), towards, shadows=not lamps))  # in the key's light alone
     return _sky(SKY, up), tuple(lamps)
 
 
@@ -111,7 +114,7 @@ def _lamp(node: Node, strength: Array) -> Lamp:
     settings: Any = node.drawn
     towards = _unit(-node.matrix[:3, 2])
     if settings["light_type"] in ("directional", "distant"):
-        return Lamp(strength, towards)
+        return Lamp(strength, towards, shadows=bool(settings["shadows"]))
     reach = settings["reach"]
     return Lamp(
         strength,
@@ -119,6 +122,7 @@ def _lamp(node: Node, strength: Array) -> Lamp:
         position=node.matrix[:3, 3],
         angle=math.radians(float(settings["angle"])) / 2.0 if settings["light_type"] == "spot" else None,
         reach=float(reach) if reach else None,
+        shadows=bool(settings["shadows"]),
     )
 
 

@@ -1,21 +1,37 @@
 """Pictures: what VTK draws of a composition, without a window. No other module makes VTK's types."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkWindowToImageFilter
 
 from reactive4d_widgets.compositions import Composition, Strokes, Surface
 from reactive4d_widgets.displays import drawable
+from reactive4d_widgets.shadows import Eye
 from reactive4d_widgets.views import View
 
-__all__ = ["picture"]
+__all__ = ["Picture", "distances", "picture"]
 
 Pixels = NDArray[np.uint8]
 PEELS = 12  # layers of what is seen through, from the front to the back
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What was drawn.
+
+    Attributes:
+        colors: (H, W, 4), sRGB, and how much of what is behind is hidden; the colours are multiplied by that.
+        depths: (H, W), metres ahead of the eye of the nearest surface that lets no light through; NaN where none is.
+    """
+
+    colors: Pixels
+    depths: NDArray[np.float64]
 
 
 def picture(
@@ -23,51 +39,103 @@ def picture(
     view: View,
     *,
     size: tuple[int, int],
-    paper: tuple[float, float, float],
     shader: str | None,
     stroke: float = 2.0,
     dot: float = 8.0,
     crease: float = 0.0,
-) -> Pixels:
+) -> Picture:
     """Draw a composition, but for its labels.
 
     Args:
         composition: what is drawn.
         view: from where.
         size: width and height, pixels.
-        paper: the colour behind everything, sRGB from 0 to 1.
         shader: how surfaces are lit; None shows their plain colours.
         stroke: how wide lines are, pixels.
         dot: how wide points are, pixels.
         crease: how wide the edges of surfaces are, pixels; 0 leaves them out.
 
-    Returns:
-        (height, width, 3), sRGB.
-
     Raises:
         EvaluationError: there is no OpenGL on this machine.
     """
-    with drawable():
-        plotter: Any = pv.Plotter(off_screen=True, window_size=list(size), lighting="none", theme=pv.themes.Theme())
-    try:
-        plotter.background_color = paper
+    with _drawn_on(size) as plotter:
         plotter.add_light(pv.Light(light_type="headlight"))  # a lit surface is one on which some lamp of VTK's shines
         for actor in _actors(composition, shader, view=view, stroke=stroke, dot=dot, crease=crease):
             plotter.add_actor(actor, reset_camera=False, render=False)
-        # Peeling wants one sample for a pixel; what is smooth is made so by drawing larger than wanted.
-        plotter.render_window.SetMultiSamples(0)
-        plotter.render_window.AlphaBitPlanesOn()
         if composition.clear is not None:
             plotter.renderer.SetUseDepthPeeling(True)
             plotter.renderer.SetMaximumNumberOfPeels(PEELS)
             plotter.renderer.SetOcclusionRatio(0.0)
-        camera = plotter.camera
-        camera.position, camera.focal_point, camera.up = view.position, view.target, view.up
-        camera.view_angle = view.fov
-        camera.clipping_range = _depths(composition, view)
-        return np.array(plotter.screenshot(return_img=True)[..., :3])
+        near, far = _range(composition, view)
+        _stand(plotter, view.matrix, view.fov, (near, far))
+        colors = np.array(plotter.screenshot(return_img=True, transparent_background=True))
+        share = _depth_buffer(plotter)
+        with np.errstate(divide="ignore"):
+            depths = near * far / (far - share * (far - near))
+        return Picture(colors, np.where(share < 1.0, depths, np.nan))
+
+
+def distances(composition: Composition, eye: Eye, size: int) -> NDArray[np.float64]:
+    """(S, S), metres ahead of an eye of the nearest surface, NaN where there is none; what is clear does not count.
+
+    Args:
+        composition: what there is.
+        eye: from where.
+        size: of the picture, pixels.
+
+    Raises:
+        EvaluationError: there is no OpenGL on this machine.
+    """
+    with _drawn_on((size, size)) as plotter:
+        if composition.opaque is not None:
+            plotter.add_actor(_surface(composition.opaque, None), reset_camera=False, render=False)
+        _stand(plotter, eye.matrix, eye.fov, (eye.near, eye.far))
+        if eye.half is not None:
+            plotter.camera.parallel_projection = True
+            plotter.camera.parallel_scale = eye.half
+        plotter.screenshot(return_img=True)
+        share = _depth_buffer(plotter)
+        near, far = eye.near, eye.far
+        depths = near + share * (far - near) if eye.half is not None else near * far / (far - share * (far - near))
+        return np.where(share < 1.0, depths, np.nan)
+
+
+@contextmanager
+def _drawn_on(size: tuple[int, int]) -> Generator[Any]:
+    """Something to draw on, while the block runs."""
+    with drawable():
+        plotter: Any = pv.Plotter(off_screen=True, window_size=list(size), lighting="none", theme=pv.themes.Theme())
+    try:
+        # Peeling wants one sample for a pixel; what is smooth is made so by drawing larger than wanted.
+        plotter.render_window.SetMultiSamples(0)
+        plotter.render_window.AlphaBitPlanesOn()
+        plotter.background_color = (0.0, 0.0, 0.0)
+        yield plotter
     finally:
         plotter.close()
+
+
+def _stand(plotter: Any, matrix: Any, fov: float, span: tuple[float, float]) -> None:
+    camera = plotter.camera
+    eye = matrix[:3, 3]
+    camera.position, camera.focal_point, camera.up = tuple(eye), tuple(eye - matrix[:3, 2]), tuple(matrix[:3, 1])
+    if fov:
+        camera.view_angle = fov
+    camera.clipping_range = span
+
+
+def _depth_buffer(plotter: Any) -> NDArray[np.float64]:
+    """(H, W), from 0 at the nearest that can be seen to 1 at the farthest."""
+    reader: Any = vtkWindowToImageFilter()
+    reader.SetInput(plotter.render_window)
+    reader.SetInputBufferTypeToZBuffer()
+    reader.ReadFrontBufferOff()
+    reader.ShouldRerenderOff()
+    reader.Update()
+    found: Any = pv.ImageData(reader.GetOutput())
+    width, height = plotter.window_size
+    shares: NDArray[np.float64] = np.array(found.active_scalars, np.float64).reshape(height, width)[::-1]
+    return shares
 
 
 def _actors(
@@ -134,7 +202,7 @@ def _strokes(strokes: Strokes) -> Any:
     return actor
 
 
-def _depths(composition: Composition, view: View) -> tuple[float, float]:
+def _range(composition: Composition, view: View) -> tuple[float, float]:
     """Between which distances there is something; the narrower they are, the better near and far can be told apart."""
     parts = [composition.opaque, composition.clear, composition.lines, composition.dots]
     ahead = -view.matrix[:3, 2]

@@ -19,7 +19,6 @@ Array = NDArray[np.float64]
 
 SPECULAR = 0.0080  # of #161616, linear
 SHININESS = 24.0
-RIM = 0.2
 PENUMBRA = 0.15
 
 _START = """//VTK::Light::Impl
@@ -53,19 +52,20 @@ _REACH = """
 _CONE = """
     r4Strength *= smoothstep({outer}, {inner}, dot(r4Way, {way}));"""
 _STOP = """  float r4Edge = 1.0 - clamp(abs(dot(r4Normal, r4Back)), 0.0, 1.0);
-  r4Light = clamp(r4Light * (1.0 - {rim} * r4Edge * r4Edge * r4Edge), 0.0, 1.0);
+  r4Light = clamp(mix(r4Light, vec3({rim}), {strength} * r4Edge * r4Edge * r4Edge), 0.0, 1.0);
   gl_FragData[0] = vec4(mix(1.055 * pow(max(r4Light, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, 12.92 * r4Light,
                             vec3(lessThanEqual(r4Light, vec3(0.0031308)))), opacity);
 """
 
 
-def shading(sky: Sky, lamps: Iterable[Lamp], to_eye: Array) -> str:
+def shading(sky: Sky, lamps: Iterable[Lamp], to_eye: Array, *, rim: tuple[float, float] = (0.0, 0.3)) -> str:
     """The text that takes the place of VTK's own `//VTK::Light::Impl`.
 
     Args:
         sky: the light from everywhere.
         lamps: the lights of one place or direction.
         to_eye: (4, 4), from world space to the eye's axes, in which the card reckons.
+        rim: the light (0 to 1) to which a surface tends where one looks along it, and how much.
 
     >>> import numpy as np
     >>> sky = Sky(np.ones(3), np.zeros(3), np.array([0.0, 0.0, 1.0]))
@@ -87,7 +87,7 @@ def shading(sky: Sky, lamps: Iterable[Lamp], to_eye: Array) -> str:
                 outer, inner = math.cos(lamp.angle), math.cos(lamp.angle * (1.0 - PENUMBRA))
                 found += _CONE.format(outer=_float(outer), inner=_float(max(inner, outer + 1e-6)), way=way)
         parts.append(_LAMP.format(way=found, color=_vec(lamp.color), **mirror))
-    return "".join([*parts, _STOP.format(rim=_float(RIM))])
+    return "".join([*parts, _STOP.format(rim=_float(rim[0]), strength=_float(rim[1]))])
 
 
 def _vec(vector: Array) -> str:

@@ -4,25 +4,28 @@ import io
 import math
 import operator
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from reactive4d.errors import ShapeError, UnknownNameError, hint, unknown
 from reactive4d.geometry.files import put
-from reactive4d.geometry.transforms import inverse, look_at
+from reactive4d.geometry.transforms import look_at
 from reactive4d.illustrations import subject as subject_of
 from reactive4d.model.frames import Frame
 from reactive4d.signals.colors import color as color_of
 from reactive4d_widgets.compositions import composed
 from reactive4d_widgets.lamps import light_of
-from reactive4d_widgets.shaders import shading
-from reactive4d_widgets.views import View, camera_of, camera_view, view_of
+from reactive4d_widgets.themes import THEMES, Theme
+from reactive4d_widgets.views import View, camera_of, camera_view, holding, instants, outermost
 
 __all__ = ["poster", "render", "seen"]
 
 SIZE = (1280, 960)
 LARGEST = 8192  # pixels; beyond it cards have no textures
-PAPERS = {"light": "#faf9f6", "dark": "#16181d"}
 FILMS = {".mp4", ".mov", ".webm", ".avi", ".mkv", ".gif", ".apng"}
 MODELS = {".glb", ".gltf", ".usd", ".usda", ".usdz", ".obj", ".stl", ".ply"}
 
@@ -36,6 +39,7 @@ def render(
     camera: Any = None,
     background: str = "light",
     edges: bool = False,
+    shadows: bool = True,
     **parameters: Any,
 ) -> None:
     r"""Write a picture of a scene at one instant; no window and no display are needed.
@@ -50,6 +54,8 @@ def render(
             view that holds the scene over its times.
         background: "light", "dark", or a colour.
         edges: whether creases and borders are drawn as lines.
+        shadows: whether things throw soft shadows, on the floor below them and, in the light of a lamp that has
+            shadows, on each other; a scene without lights is lit by one that has.
         **parameters: a reader's values.
 
     Raises:
@@ -67,7 +73,9 @@ def render(
     """
     target = Path(path)
     _check_format(target)
-    made = poster(subject, t=t, size=size, camera=camera, background=background, edges=edges, **parameters)
+    made = poster(
+        subject, t=t, size=size, camera=camera, background=background, edges=edges, shadows=shadows, **parameters
+    )
     put(target, made)
 
 
@@ -79,69 +87,79 @@ def poster(
     camera: Any = None,
     background: str = "light",
     edges: bool = False,
+    shadows: bool = True,
     **parameters: Any,
 ) -> bytes:
     """The same picture as the bytes of a PNG file, for a page to carry.
 
     >>> import reactive4d as r4
-    >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 20_000
+    >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 30_000
     True
     """
     from PIL import Image
 
     from reactive4d_widgets.captions import captioned
-    from reactive4d_widgets.pictures import picture
+    from reactive4d_widgets.exposures import exposed
 
     width, height = _size(size)
-    paper = _paper(background)
-    frame, view = seen(subject, t, aspect=width / height, camera=camera, **parameters)
+    theme = _theme(background)
+    frame, view, bounds = seen(subject, t, aspect=width / height, camera=camera, **parameters)
     composition = composed(frame)
-    sky, lamps = light_of(frame.values(), view)
     # Drawn larger and made smaller: smooth edges, of lines and letters too, on every card.
     finer = 2 if max(width, height) * 2 <= LARGEST else 1
-    ratio = max(1.0, height / 600.0)
-    pixels = picture(
+    ratio = finer * max(1.0, height / 600.0)
+    pixels = exposed(
         composition,
         view,
+        light=light_of(frame.values(), view),
+        bounds=bounds,
         size=(width * finer, height * finer),
-        paper=paper,
-        shader=shading(sky, lamps, inverse(view.matrix)),
-        stroke=2.0 * ratio * finer,
-        dot=8.0 * ratio * finer,
-        crease=1.2 * ratio * finer if edges else 0.0,
+        ratio=ratio,
+        finer=finer,
+        theme=theme,
+        edges=edges,
+        shadows=shadows,
     )
     image: Any = Image.fromarray(pixels)
-    image = captioned(image, composition.labels, view, ratio=ratio * finer, paper=paper).reduce(finer)
+    image = captioned(image, composition.labels, view, ratio=ratio, paper=theme.paper).reduce(finer)
     file = io.BytesIO()
     image.save(file, "PNG", optimize=True)
     return file.getvalue()
 
 
-def seen(subject: Any, t: float, *, aspect: float, camera: Any = None, **parameters: Any) -> tuple[Frame, View]:
-    """What is seen of a subject at a time, and from where; arguments as those of `render`.
+def seen(
+    subject: Any, t: float, *, aspect: float, camera: Any = None, **parameters: Any
+) -> tuple[Frame, View, NDArray[np.float64]]:
+    """What is seen of a subject at a time, from where, and (2, 3) the box of all over its times; as for `render`.
 
     >>> import reactive4d as r4
-    >>> frame, view = seen(r4.Scene(ball=r4.Sphere()), 0.0, aspect=4 / 3)
-    >>> list(frame), view.fov
-    (['ball'], 30.0)
+    >>> frame, view, bounds = seen(r4.Scene(ball=r4.Sphere()), 0.0, aspect=4 / 3)
+    >>> list(frame), view.fov, bounds.round(2).tolist()
+    (['ball'], 30.0, [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
     """
     given = subject_of(subject)
     if parameters:
         given = given.moved({name: given.control(name).encode(value) for name, value in parameters.items()})
-    values = given.values
-    frame = given.scene.at(t, **values)
+    frame = given.scene.at(t, **given.values)
+    points = outermost(given.scene.at(other, **given.values) for other in instants(*given.times))
+    points = np.concatenate([points, outermost([frame])])
+    bounds = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
     if camera is None and given.point.camera is not None:
         camera = dict(zip(("position", "target"), given.point.camera, strict=True))
     if camera is None:
-        found = camera_of(frame)
-        return frame, view_of(given.scene, *given.times, aspect=aspect, **values) if found is None else found
-    if isinstance(camera, str):
-        node = frame.get(camera)
-        names = [name for name, other in frame.items() if other.primitive == "camera"]
-        if node is None or node.primitive != "camera":
-            raise unknown(camera, names, what="camera")
-        return frame, camera_view(node)
-    return frame, camera if isinstance(camera, View) else _view(camera)
+        view = camera_of(frame) or holding(points, aspect=aspect)
+    elif isinstance(camera, str):
+        view = _named(camera, frame)
+    else:
+        view = camera if isinstance(camera, View) else _view(camera)
+    return frame, view, bounds
+
+
+def _named(camera: str, frame: Frame) -> View:
+    names = [name for name, node in frame.items() if node.primitive == "camera"]
+    if camera not in names:
+        raise unknown(camera, names, what="camera")
+    return camera_view(frame[camera])
 
 
 def _view(camera: Any) -> View:
@@ -183,9 +201,12 @@ def _size(size: Any) -> tuple[int, int]:
     return width, height
 
 
-def _paper(background: str) -> tuple[float, float, float]:
-    red, green, blue, _ = color_of(PAPERS.get(background, background)).tolist()
-    return red, green, blue
+def _theme(background: str) -> Theme:
+    found = THEMES.get(background)
+    if found is not None:
+        return found
+    red, green, blue, _ = color_of(background).tolist()
+    return replace(THEMES["light" if red + green + blue > 1.0 else "dark"], paper=(red, green, blue))
 
 
 def _check_format(path: Path) -> None:

@@ -14,7 +14,7 @@ from reactive4d.geometry.transforms import look_at, transform_points
 from reactive4d.model.frames import Frame
 from reactive4d.model.nodes import Node
 
-__all__ = ["View", "bounds_of", "camera_of", "camera_view", "holding", "outermost", "view_of"]
+__all__ = ["View", "bounds_of", "camera_of", "camera_view", "holding", "instants", "outermost", "view_of"]
 
 Array = NDArray[np.float64]
 Three = tuple[float, float, float]
@@ -131,8 +131,16 @@ def view_of(scene: Any, start: float, stop: float, *, aspect: float = ASPECT, **
     >>> [view.position[2] > 2.0 for view in views]  # the longer it rises, the farther one stands
     [False, True]
     """
-    times = [start] if start == stop else [start + (stop - start) * i / (TIMES - 1) for i in range(TIMES)]
-    return holding(outermost(scene.at(t, **parameters) for t in times), aspect=aspect)
+    return holding(outermost(scene.at(t, **parameters) for t in instants(start, stop)), aspect=aspect)
+
+
+def instants(start: float, stop: float) -> tuple[float, ...]:
+    """The times at which one looks at a scene to know it: its span in eight parts.
+
+    >>> instants(0.0, 4.0)[:3], instants(1.0, 1.0)
+    ((0.0, 0.5, 1.0), (1.0,))
+    """
+    return (start,) if start == stop else tuple([start + (stop - start) * i / (TIMES - 1) for i in range(TIMES)])
 
 
 def bounds_of(frames: Iterable[Frame]) -> Array:

@@ -12,6 +12,7 @@ from PIL import Image
 import reactive4d as r4
 from reactive4d_widgets.captions import places
 from reactive4d_widgets.stills import poster, render, seen
+from reactive4d_widgets.views import View
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -39,7 +40,7 @@ def inked(picture: Any) -> Any:
 
 def place_of(scene: r4.Scene, name: str, t: float, **options: Any) -> Any:
     """(2,), the pixel at which an object's position is seen."""
-    frame, view = seen(scene, t, aspect=SIZE[0] / SIZE[1], **options)
+    frame, view, _ = seen(scene, t, aspect=SIZE[0] / SIZE[1], **options)
     return places(frame[name].matrix[None, :3, 3], view, SIZE)[0, :2]
 
 
@@ -296,3 +297,45 @@ def test_surroundings_are_light_dark_or_of_a_colour():
     assert corners[2] == [0, 128, 128]
     with pytest.raises(r4.UnknownNameError, match="tael"):
         poster(r4.Scene(), background="tael")
+
+
+def lit_ball(**options: Any) -> Any:
+    """A ball above a table, lit from above."""
+    table, ball = r4.Box(size=(6, 6, 0.2), color="white"), r4.Sphere(radius=0.5, color="white")
+    ball.translate((0, 0, 2))
+    lamp = r4.Light("directional", color="white", shadows=True)
+    view = {"position": (0, -9, 9), "target": (0, 0, 0)}
+    scene = r4.Scene(table=table, ball=ball, lamp=lamp)
+    return drawn(scene, camera=view, **options), places(
+        np.array([[0.0, 0.0, 0.1], [1.5, 0.0, 0.1]]), View(**view), SIZE
+    )
+
+
+def test_a_lamp_with_shadows_throws_them():
+    """Below the ball the table is dark, beside it light; without shadows there is none."""
+    picture, (below, beside) = lit_ball()
+    assert around(picture, *below[:2], size=1).max() < 150
+    assert around(picture, *beside[:2], size=1).min() > 240
+    plain, _ = lit_ball(shadows=False)
+    assert around(plain, *below[:2], size=1).min() > 240
+
+
+def test_no_surface_lies_in_its_own_shadow():
+    """What nothing stands before is as light as without shadows, also where the light comes aslant."""
+    ball = r4.Scene(ball=r4.Sphere(color="tan", segments=64, rings=32))
+    view = {"position": (0, -6, 0), "target": (0, 0, 0)}
+    with_shadows, without = drawn(ball, camera=view), drawn(ball, camera=view, shadows=False)
+    above_the_floor = slice(0, 150)
+    assert np.abs(with_shadows - without)[above_the_floor].max() <= 2
+
+
+def test_the_floor_below_a_thing_is_dark():
+    """Where it stands; far from it the paper is white, and from below there is no floor."""
+    box = r4.Scene(box=r4.Box(color="tan"))
+    above = {"position": (0, -6, 4), "target": (0, 0, 0)}
+    x, y = places(np.array([[0.0, -0.55, -0.5]]), View(**above), SIZE)[0, :2]
+    assert 120 < around(drawn(box, camera=above), x, y, size=1).mean() < 250
+    assert drawn(box, camera=above)[0, 0].tolist() == [255, 255, 255]
+    below = {"position": (0, -6, -4), "target": (0, 0, 0)}
+    difference = np.abs(drawn(box, camera=below) - drawn(box, camera=below, shadows=False))
+    assert difference[:40].max() == 0
