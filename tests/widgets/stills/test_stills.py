@@ -326,7 +326,7 @@ def test_no_surface_lies_in_its_own_shadow():
     view = {"position": (0, -6, 0), "target": (0, 0, 0)}
     with_shadows, without = drawn(ball, camera=view), drawn(ball, camera=view, shadows=False)
     above_the_floor = slice(0, 150)
-    assert np.abs(with_shadows - without)[above_the_floor].max() <= 2
+    assert np.abs(with_shadows - without)[above_the_floor].max() <= 4
 
 
 def test_the_floor_below_a_thing_is_dark():
