@@ -15,6 +15,7 @@ export class NumberElement extends InlineElement {
   /** @type {HTMLElement | null} */ #face = null;
   /** @type {Parameter | null} */ #parameter = null;
   #typing = false;
+  /** @type {unknown} */ #seen = null;
 
   get name() {
     return this.getAttribute("name") ?? "";
@@ -24,6 +25,7 @@ export class NumberElement extends InlineElement {
   build() {
     this.#parameter = this.reader?.parameter(this.name) ?? null;
     this.#typing = false;
+    this.#seen = null;
     const known = this.#parameter ?? this.reader?.manifest.values.find((value) => value.name === this.name);
     if (!known) return null;
     this.#face = !this.#parameter ? make("span", { class: "value" })
@@ -38,6 +40,9 @@ export class NumberElement extends InlineElement {
   update() {
     const { reader } = this;
     if (!reader || !this.#face || this.#typing) return;
+    const seen = this.#parameter ? reader.session.point.parameters : this.figure?.snapshot?.values;
+    if (seen === this.#seen) return; // the same object as long as nothing in it changes
+    this.#seen = seen;
     if (!this.#parameter) {
       const value = reader.manifest.values.find(({ name }) => name === this.name);
       const spec = this.getAttribute("format") || value?.format || "";
@@ -122,6 +127,7 @@ export class NumberElement extends InlineElement {
       this.show(face);
       if (back) face.focus();
       if (value !== null) this.#set(value, null);
+      this.#seen = null;
       this.update();
     };
     field.addEventListener("keydown", (event) => {

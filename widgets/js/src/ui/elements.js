@@ -35,13 +35,13 @@ export function make(tag, attributes = {}, children = [], listeners = {}) {
 export function setAll(node, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) node.removeAttribute(name);
-    else if (node.getAttribute(name) !== written(value)) node.setAttribute(name, written(value));
+    else if (node.getAttribute(name) !== written(name, value)) node.setAttribute(name, written(name, value));
   }
 }
 
-/** @param {string | number | true} value */
-function written(value) {
-  return value === true ? "" : String(value);
+/** Aria wants a word where HTML wants nothing. @param {string} name @param {string | number | true} value */
+function written(name, value) {
+  return value === true && !name.startsWith("aria-") ? "" : String(value);
 }
 
 /** Text is only touched where it differs: so that selections and screen readers are left in peace. */

@@ -130,10 +130,12 @@ export class FigureElement extends ElementBase {
       request: (/** @type {FrameRequestCallback} */ f) => requestAnimationFrame(f),
       cancel: (/** @type {number} */ id) => cancelAnimationFrame(id),
     });
+    const stage = this.stage ?? sharedStage();
+    this.stage = stage;
     const life = new Life({
       session,
       clock,
-      view: (canvas, manifest) => new View(this.stage ?? sharedStage(), canvas, manifest),
+      view: (canvas, manifest) => new View(stage, canvas, manifest),
       copy: () => this.#copy(),
       tell: (name) => this.#tell(name),
     }, this.#spoken);

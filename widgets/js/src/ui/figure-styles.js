@@ -41,7 +41,7 @@ export const figureStyles = `
 .picture[data-live] ::slotted(.r4d-poster), .picture[data-live] > slot { display: none; }
 .picture > .still { display: none; position: absolute; inset: 0; width: 100%; height: 100%; }
 .over, .handles { position: absolute; inset: 0; pointer-events: none; }
-.picture:not([data-live]) > .over, .picture:not([data-live]) > .hover { display: none; }
+.picture:not([data-live]) > :is(.over, .hover, .r4d-labels) { display: none; }
 
 .handle {
   position: absolute; left: calc(var(--target) / -2); top: calc(var(--target) / -2); width: var(--target);

@@ -21,7 +21,7 @@ export const inlineStyles = `
 a { color: var(--r4d-inline); text-decoration-thickness: 1px; text-underline-offset: 0.18em; }
 input.typing {
   font: inherit; font-variant-numeric: lining-nums tabular-nums; color: inherit; background: var(--raised, Field);
-  border: 0; border-radius: 2px; padding: 0 0.2em; margin: 0 -0.2em; width: calc(var(--digits, 5) * 1ch + 1em);
+  border: 0; border-radius: 2px; padding: 0 0.2em; margin: 0; width: calc(var(--digits, 5) * 1ch + 1em);
   outline: 2px solid var(--r4d-inline);
 }
 select.choice {

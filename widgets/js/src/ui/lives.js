@@ -35,6 +35,7 @@ export class Life {
   /** @type {(() => void)[]} */ #off = [];
   /** @type {Map<string, string>} */ #marks = new Map();
   /** @type {Hit | null} */ #selected = null;
+  /** @type {Parameters | null} */ #parameters = null;
   #stripped = 0;
   #described = 0;
   #drawn = false;
@@ -152,7 +153,9 @@ export class Life {
 
   #moved() {
     this.player.show();
-    this.controls.show();
+    const { parameters } = this.#parts.session.point;
+    if (parameters !== this.#parameters) this.controls.show(); // the same object while only time moves
+    this.#parameters = parameters;
     this.handles.place();
     this.#parts.tell("r4d-point");
   }
@@ -281,6 +284,7 @@ export class Life {
     const own = new Controls(this.reader, (name) => leader.reader.parameter(name) !== null);
     this.controls.element.replaceWith(own.element);
     this.controls = own;
+    this.#parameters = null;
     this.element.toggleAttribute("data-follows", true);
     this.#moved();
   }
