@@ -1,9 +1,11 @@
 """Chunks: arrays of one type and shape, packed together as they travel.
 
-Two encodings. **raw** keeps every bit: the arrays one after another, little-endian, all first bytes of their items, all
-second bytes, and so on. **u16** keeps floats to within 1/131070 of the range of their column: whole numbers from 0 to
-65535, of each array the differences to the array before (of the first: to the row before), all low bytes, all high
-bytes. Both are deflated (RFC 1951) and written in base 64.
+Three encodings. **raw** keeps every bit: the arrays one after another, little-endian, all first bytes of their items,
+all second bytes, and so on. **u16** keeps floats to within 1/131070 of the range of their column: whole numbers from 0
+to 65535, of each array the differences to the array before (of the first: to the row before), all low bytes, all high
+bytes. **u16s** is the same for surfaces that deform, where neighbours move alike: of the differences to the array
+before those to the row before, and small ones of either sign as small numbers. All are deflated (RFC 1951) and written
+in base 64.
 
 A reference names an array as it was before any encoding.
 """
@@ -48,6 +50,7 @@ def encode(
     *,
     refs: Sequence[str] | None = None,
     bounds: tuple[Array, Array] | None = None,
+    smooth: bool = False,
 ) -> dict[str, Any]:
     """Pack arrays into a chunk.
 
@@ -55,6 +58,7 @@ def encode(
         arrays: at least one, all (n, k) or all (n,), which travels as (n, 1); of float32, or all of uint32.
         refs: their references, where they are known already.
         bounds: (k,) lowest and (k,) highest values of the columns: then floats are packed as u16; without, as raw.
+        smooth: pack them as u16s instead.
 
     Raises:
         ShapeError: arrays of different shapes or types, of another type, or not finite or out of bounds as u16.
@@ -82,8 +86,10 @@ def encode(
     if name != "f32":
         raise ShapeError(f"expected float32 to pack as u16, got {kept[0].dtype}")
     low, high = (np.asarray(bound, dtype=np.float64) for bound in bounds)
-    planes = _packed(_planes(_quantised(kept, low, high)))
-    return {**chunk, "encoding": "u16", "lo": low.tolist(), "hi": high.tolist(), "data": planes}
+    steps = _quantised(kept, low, high)
+    planes = _packed(_planes(_zigzag(_differences(steps)) if smooth else _deltas(steps)))
+    encoding = "u16s" if smooth else "u16"
+    return {**chunk, "encoding": encoding, "lo": low.tolist(), "hi": high.tolist(), "data": planes}
 
 
 def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
@@ -98,10 +104,11 @@ def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
     """
     refs, dtype, encoding = chunk["refs"], DTYPES.get(chunk["dtype"]), chunk["encoding"]
     rows, width = chunk["shape"]
-    if dtype is None or encoding not in ("raw", "u16") or (encoding == "u16" and chunk["dtype"] != "f32"):
-        raise hint(ShapeError(f"{encoding!r} of {chunk['dtype']!r} is no encoding"), "raw of f32 or u32, u16 of f32")
+    if dtype is None or encoding not in ("raw", "u16", "u16s") or (encoding != "raw" and chunk["dtype"] != "f32"):
+        error = ShapeError(f"{encoding!r} of {chunk['dtype']!r} is no encoding")
+        raise hint(error, "raw of f32 or u32, u16 or u16s of f32")
     shape = (len(refs), rows, width)
-    data = _unpacked(chunk["data"], math.prod(shape) * (2 if encoding == "u16" else 4))
+    data = _unpacked(chunk["data"], math.prod(shape) * (4 if encoding == "raw" else 2))
     if encoding == "raw":
         arrays = np.ascontiguousarray(data.reshape(4, -1).T).view(dtype).reshape(shape)
     else:
@@ -109,10 +116,11 @@ def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
         if low.shape != (width,) or high.shape != (width,):
             raise ShapeError(f"lo, hi: expected {width} numbers each, got {low.shape} and {high.shape}")
         half = data.reshape(2, -1)
-        deltas = (half[0].astype(np.uint16) + (half[1].astype(np.uint16) << np.uint16(8))).reshape(
-            len(refs), width, rows
-        )
-        if len(refs):
+        deltas = half[0].astype(np.uint16) + (half[1].astype(np.uint16) << np.uint16(8))
+        deltas = deltas.reshape(len(refs), width, rows)
+        if encoding == "u16s":
+            deltas = np.cumsum(_unzigzag(deltas), axis=2, dtype=np.uint16)
+        elif len(refs):
             deltas[0] = np.cumsum(deltas[0], axis=1, dtype=np.uint16)
         steps = np.cumsum(deltas, axis=0, dtype=np.uint16)
         share = np.swapaxes(steps, 1, 2) / STEPS
@@ -142,11 +150,35 @@ def _quantised(arrays: Sequence[Array], low: Array, high: Array) -> NDArray[np.u
     return steps
 
 
-def _planes(steps: NDArray[np.uint16]) -> bytes:
+def _deltas(steps: NDArray[np.uint16]) -> NDArray[np.uint16]:
+    """Of each array to the one before, of the first to the row before."""
     deltas = steps.copy()
     deltas[1:] -= steps[:-1]
     deltas[0, :, 1:] -= steps[0, :, :-1]
-    flat = deltas.reshape(-1)
+    return deltas
+
+
+def _differences(steps: NDArray[np.uint16]) -> NDArray[np.uint16]:
+    """Of each array to the one before, and of these to the row before."""
+    moved = steps.copy()
+    moved[1:] -= steps[:-1]
+    differences = moved.copy()
+    differences[:, :, 1:] -= moved[:, :, :-1]
+    return differences
+
+
+def _zigzag(numbers: NDArray[np.uint16]) -> NDArray[np.uint16]:
+    """0, -1, 1, -2 become 0, 1, 2, 3."""
+    signed = numbers.view(np.int16)
+    return ((signed << np.int16(1)) ^ (signed >> np.int16(15))).view(np.uint16)
+
+
+def _unzigzag(numbers: NDArray[np.uint16]) -> NDArray[np.uint16]:
+    return (numbers >> np.uint16(1)) ^ (np.uint16(0) - (numbers & np.uint16(1)))
+
+
+def _planes(numbers: NDArray[np.uint16]) -> bytes:
+    flat = numbers.reshape(-1)
     return (flat & np.uint16(255)).astype(np.uint8).tobytes() + (flat >> np.uint16(8)).astype(np.uint8).tobytes()
 
 

@@ -1,7 +1,6 @@
 """Figures: one figure of a page: its table, its poster, and how it stands in the page's HTML."""
 
 import base64
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -19,7 +18,7 @@ from reactive4d_widgets.tables import Table
 
 __all__ = ["OPTIONS", "Shown", "checked_options"]
 
-SIZE = (1280, 960)
+SIZE = (1280, 800)
 # One pixel that lets all light through: what stands where no picture can be drawn.
 EMPTY = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNgYGBgAAAABQABeqhXUAAAAABJRU5ErkJggg=="
 
@@ -165,13 +164,19 @@ class Shown:
 
 
 def _formatted(value: Any, spec: str, unit: str) -> str:
+    """A value as the viewer writes it, too."""
     if value is None:
         return "–"
     if isinstance(value, str):
-        return format(value, spec) if spec and not re.search(r"[eEfFgGn%]$", spec) else value
-    numbers = [float(x) for x in value] if hasattr(value, "__len__") else [float(value)]
-    text = ", ".join([format(number, spec or ".4g") for number in numbers])
-    return f"{text} {unit}" if unit else text
+        return value
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    several = hasattr(value, "__len__")
+    numbers = [float(x) for x in value] if several else [float(value)]
+    text = ", ".join([format(number, spec or ".4g").replace("-", "\u2212") for number in numbers])
+    sign = "°" if unit in ("deg", "degree", "degrees") else unit
+    text = f"({text})" if several else text
+    return f"{text}{sign}" if sign[:1] in "°%′″" else f"{text}\u202f{sign}"
 
 
 def _worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:

@@ -13,6 +13,8 @@ __all__ = ["Store"]
 
 Array = NDArray[Any]
 EXACT = 16_384  # bytes of floats in one channel that are kept to the last bit
+COARSEST = 4.0  # 65535ths of the longest side
+FINEST = 1.0 / 150.0  # of the distance of two points
 MOST_ARRAYS = 64  # in one chunk
 MOST_BYTES = 8_000_000
 
@@ -69,7 +71,7 @@ def packed_group(named: Sequence[tuple[str, Array]]) -> Iterable[dict[str, Any]]
     widths: dict[int, Any] = {}
     if is_coarse:
         for width in {array.shape[1] for array in floats}:
-            widths[width] = extent([array for array in floats if array.shape[1] == width])
+            widths[width] = ranges([array for array in floats if array.shape[1] == width])
     for alike in kinds.values():
         first = alike[0][1]
         several = max(1, min(MOST_ARRAYS, MOST_BYTES // max(first.nbytes, 1)))
@@ -77,3 +79,16 @@ def packed_group(named: Sequence[tuple[str, Array]]) -> Iterable[dict[str, Any]]
         for i in range(0, len(alike), several):
             part = alike[i : i + several]
             yield encode([array for _, array in part], refs=[ref for ref, _ in part], bounds=bounds)
+
+
+def ranges(arrays: Sequence[Array]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Between what values the columns of some arrays are packed: wider than they are, where fewer bits will do.
+
+    All columns get steps of one size, so that a flat thing costs no bits for its thickness. Steps are a few 65535ths of
+    the longest side, but so small beside the distance of two points that light falls smoothly on what they make.
+    """
+    low, high = extent(arrays)
+    side = float((high - low).max(initial=0.0))
+    rows = max(len(array) for array in arrays)
+    step = side * min(COARSEST / 65535.0, FINEST / max(rows, 1) ** 0.5)
+    return low, np.maximum(high, low + step * 65535.0)

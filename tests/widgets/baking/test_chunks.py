@@ -26,13 +26,13 @@ def test_raw_keeps_every_bit(data: Any, shape: Any, dtype: Any, count: int) -> N
         assert found[reference(array)].tobytes() == array.tobytes()
 
 
-@given(st.data(), shapes, st.integers(1, 4))
-def test_u16_is_within_half_a_step_of_its_column(data: Any, shape: Any, count: int) -> None:
+@given(st.data(), shapes, st.integers(1, 4), st.booleans())
+def test_u16_is_within_half_a_step_of_its_column(data: Any, shape: Any, count: int, smooth: bool) -> None:
     """However the columns differ in their ranges, and where a column does not vary at all."""
     numbers = st.floats(-1e6, 1e6, width=32)
     arrays = [data.draw(any_arrays(np.float32, shape, elements=numbers)) for _ in range(count)]
     low, high = extent(arrays)
-    found = decode(encode(arrays, bounds=(low, high)))
+    found = decode(encode(arrays, bounds=(low, high), smooth=smooth))
     for array in arrays:
         off = np.abs(found[reference(array)].astype(np.float64) - array)
         assert (off <= (high - low) / 131070 + np.spacing(np.abs(array)) + 1e-12).all()
@@ -49,12 +49,23 @@ def test_the_bytes_are_those_of_the_wire() -> None:
     assert zlib.decompress(base64.b64decode(raw["data"]), -15) == bytes([1, 3, 0, 2, 0, 0, 0, 0])
 
 
+def test_the_bytes_of_a_smooth_chunk() -> None:
+    """By hand: 0, 65535; then 32768, 65535."""
+    arrays = [np.float32([[0.0], [1.0]]), np.float32([[0.5], [1.0]])]
+    chunk = encode(arrays, bounds=(np.zeros(1), np.ones(1)), smooth=True)
+    assert chunk["encoding"] == "u16s"
+    data = zlib.decompress(base64.b64decode(chunk["data"]), -15)
+    # Of each array to the one before: 0, -1; -32768, 0. Of these to the row before: 0, -1; -32768, -32768.
+    assert data == bytes([0x00, 0x01, 0xFF, 0xFF]) + bytes([0x00, 0x00, 0xFF, 0xFF])
+
+
 def test_a_motion_of_many_points_is_small() -> None:
     """Ten thousand points at sixty ticks, as a wave: under a tenth of what they take as floats."""
     x, y = np.meshgrid(np.linspace(-1, 1, 100), np.linspace(-1, 1, 100))
     waves = [np.stack([x, y, 0.2 * np.sin(4 * x + k / 10)], axis=-1).reshape(-1, 3) for k in range(60)]
     arrays = [wave.astype(np.float32) for wave in waves]
-    assert len(encode(arrays, bounds=extent(arrays))["data"]) < sum(a.nbytes for a in arrays) / 10
+    plain, smooth = (len(encode(arrays, bounds=extent(arrays), smooth=smooth)["data"]) for smooth in (False, True))
+    assert smooth < plain < sum(a.nbytes for a in arrays) / 10
 
 
 @pytest.mark.parametrize(
