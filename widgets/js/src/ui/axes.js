@@ -1,7 +1,7 @@
 /** The numbers behind handles, ranges and pads: a parameter, or one of the two of a pair. */
 
 import { isNumeric } from "./limits.js";
-import { niceBelow } from "./stepping.js";
+import { digitsOf, niceBelow } from "./stepping.js";
 
 /**
  * @typedef {import("../core/types.js").Handle} Handle
@@ -34,7 +34,7 @@ export function sideLimits(parameter, limits, i) {
     [lo, hi] = [lo ?? -size, hi ?? size];
   }
   const step = parameter.step ?? niceBelow((hi - lo) / 100);
-  return { lo, hi, step, stops: stops.length ? stops : null };
+  return { lo, hi, step, digits: digitsOf(parameter, step), stops: stops.length ? stops : null };
 }
 
 /**

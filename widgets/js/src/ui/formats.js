@@ -87,12 +87,12 @@ export function decimals(step) {
 }
 
 /**
- * A number with as many decimals as its step has, or all that it has (for typing).
+ * A number with as many decimals as its limits say, else as their step has.
  * @param {number} value
- * @param {number} step
+ * @param {{ step: number, digits?: number }} limits
  */
-export function stepped(value, step) {
-  return format(value, `.${decimals(step)}f`);
+export function stepped(value, limits) {
+  return format(value, `.${limits.digits ?? decimals(limits.step)}f`);
 }
 
 /**
@@ -108,7 +108,7 @@ export function withUnit(text, unit) {
 
 /** A time as it is read out and shown: "1.27 s". @param {number} t @param {number} [step] */
 export function timeText(t, step = 0.01) {
-  return withUnit(stepped(t, step), "s");
+  return withUnit(stepped(t, { step }), "s");
 }
 
 /**

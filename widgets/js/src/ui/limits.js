@@ -1,7 +1,7 @@
 /** What a reader may set a parameter to at a point: bounds that depend on others, stops, and why it is closed. */
 
 import { boundsOf, isHeld } from "../core/parameters.js";
-import { fit, stepOf } from "./stepping.js";
+import { digitsOf, fit, stepOf } from "./stepping.js";
 
 /**
  * @typedef {import("../core/types.js").Parameter} Parameter
@@ -22,6 +22,7 @@ const NEEDS = "Changing this needs a live kernel.";
 export function allowed(parameter, parameters) {
   const [lo, hi] = boundsOf(parameter, parameters).map((x) => (Number.isFinite(x) ? x : null));
   const [from, to] = [lo ?? parameter.soft?.[0] ?? null, hi ?? parameter.soft?.[1] ?? null];
+  const step = stepOf({ ...parameter, bounds: [from, to] });
   const fixed = parameter.grade === "fixed";
   const stops = parameter.grade === "stops" && isNumeric(parameter) ? numbersOf(parameter.stops) : null;
   return {
@@ -29,7 +30,8 @@ export function allowed(parameter, parameters) {
     hi,
     from,
     to,
-    step: stepOf({ ...parameter, bounds: [from, to] }),
+    step,
+    digits: digitsOf(parameter, step),
     stops: stops && within(stops, lo, hi),
     integer: parameter.kind === "integer",
     closed: isHeld(parameter, parameters),

@@ -34,7 +34,7 @@ export function numberControl(parameter, reader) {
   };
   const slider = new Slider({
     label,
-    say: (value) => withUnit(stepped(value, limits.step), unit),
+    say: (value) => withUnit(stepped(value, limits), unit),
     fit: (wish) => fit(wish, limits, { coarse: true }),
     moved: set,
     drag: (act) => { gesture = act === "begin" ? reader.gestures.begin(name) : ""; },

@@ -37,7 +37,7 @@ export function rangeControl(parameter, reader) {
   const ends = ["from", "to"].map((word, i) => ({
     slider: new Slider({
       label: `${label}, ${word}`,
-      say: (value) => withUnit(stepped(value, sides[i].step), unit),
+      say: (value) => withUnit(stepped(value, sides[i]), unit),
       fit: (wish) => {
         const x = fit(wish, sides[i], { coarse: true });
         return i === 0 ? Math.min(x, now[1]) : Math.max(x, now[0]);
@@ -130,7 +130,7 @@ export function padControl(parameter, reader) {
       now = pairOf(value);
       sides = [0, 1].map((i) => sideLimits(parameter, limits, i));
       typed.forEach((field, i) => field.show(now[i], sides[i]));
-      const texts = now.map((x, i) => withUnit(stepped(x, sides[i].step), unit));
+      const texts = now.map((x, i) => withUnit(stepped(x, sides[i]), unit));
       setAll(thumb, {
         "aria-valuenow": now[0], "aria-valuemin": sides[0].lo, "aria-valuemax": sides[0].hi,
         "aria-valuetext": `x ${texts[0]}, y ${texts[1]}`,

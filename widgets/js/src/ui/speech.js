@@ -1,7 +1,7 @@
 /** What a figure says: the text of its picture, and after the reader acted, what became of it. */
 
 import { format, stepped, timeText, withUnit } from "./formats.js";
-import { stepOf } from "./stepping.js";
+import { digitsOf, stepOf } from "./stepping.js";
 
 /**
  * @typedef {import("../core/types.js").Manifest} Manifest
@@ -49,8 +49,9 @@ export function valueText(parameter, value, spec = null) {
   if (parameter.kind === "boolean") return value ? "on" : "off";
   if (parameter.kind === "color" && !Array.isArray(value)) return String(value);
   const step = stepOf(parameter);
+  const digits = digitsOf(parameter, step);
   const plain = (/** @type {unknown} */ x) => typeof x === "number" && spec === null;
-  const one = (/** @type {any} */ x) => (plain(x) ? stepped(x, step) : format(x, spec ?? ""));
+  const one = (/** @type {any} */ x) => (plain(x) ? stepped(x, { step, digits }) : format(x, spec ?? ""));
   const text = Array.isArray(value) ? value.map(one).join(parameter.kind === "range" ? " – " : ", ") : one(value);
   return withUnit(text, parameter.unit);
 }

@@ -1,11 +1,14 @@
 /** Where a value of a control may go: bounds, stops, steps, and what a key does to it. */
 
+import { decimals } from "./formats.js";
+
 /**
  * What holds a number.
  * @typedef {object} Limits
  * @property {number | null} lo null: open
  * @property {number | null} hi
  * @property {number} step of a key
+ * @property {number} [digits] behind the point, if not those of the step
  * @property {readonly number[] | null} stops the only values allowed, if it is baked
  * @property {boolean} [integer]
  */
@@ -29,6 +32,23 @@ export function stepOf(parameter) {
   if (lo !== null && hi !== null && hi > lo) return niceBelow((hi - lo) / 100);
   const size = typeof parameter.default === "number" ? Math.abs(parameter.default) : 0;
   return niceBelow((size || 1) / 100);
+}
+
+/**
+ * How many digits behind the point show where a parameter opens, and its stops, as they are; at most three more than
+ * its step has.
+ * @param {Pick<import("../core/types.js").Parameter, "default" | "stops">} parameter
+ * @param {number} step
+ */
+export function digitsOf({ default: opens, stops }, step) {
+  const least = decimals(step);
+  const numbers = [opens, ...(stops ?? [])].flat().filter((x) => typeof x === "number" && Number.isFinite(x));
+  const needed = (/** @type {number} */ x) => {
+    let digits = least;
+    while (digits < least + 3 && Math.abs(Number(x.toFixed(digits)) - x) > 1e-9 * Math.max(1, Math.abs(x))) digits++;
+    return digits;
+  };
+  return Math.max(least, ...numbers.map((x) => needed(Number(x))));
 }
 
 /** @param {number} x @param {number | null} lo @param {number | null} hi */

@@ -42,7 +42,8 @@ export function blocks(spans, start, stop) {
  */
 export function told(spans, step) {
   if (!spans.length) return "nothing remembered yet";
-  return spans.map((s) => `${WORDS[s.state]} ${stepped(s.start, step)} to ${stepped(s.stop, step)}\u202fs`).join("; ");
+  const at = (/** @type {number} */ t) => stepped(t, { step });
+  return spans.map((s) => `${WORDS[s.state]} ${at(s.start)} to ${at(s.stop)}\u202fs`).join("; ");
 }
 
 export class Strip {

@@ -33,11 +33,11 @@ export class TypedNumber {
   show(value, limits) {
     this.#value = value;
     this.#limits = limits;
-    const text = stepped(value, limits.step);
+    const text = stepped(value, limits);
     setAll(this.element, { "aria-valuenow": value, "aria-valuemin": limits.lo, "aria-valuemax": limits.hi });
     setAll(this.element, { "aria-valuetext": text });
     if (!this.#typing && this.element.value !== text) this.element.value = text;
-    const ends = [limits.lo, limits.hi, value].map((x) => (x === null ? 0 : stepped(x, limits.step).length));
+    const ends = [limits.lo, limits.hi, value].map((x) => (x === null ? 0 : stepped(x, limits).length));
     this.element.style.setProperty("--digits", String(Math.max(...ends)));
   }
 
@@ -51,7 +51,7 @@ export class TypedNumber {
     const value = keep && this.#typing ? parse(this.element.value) : null;
     this.#typing = false;
     if (value !== null && value !== this.#value) this.#typed(value, "typed");
-    this.element.value = stepped(this.#value, this.#limits.step);
+    this.element.value = stepped(this.#value, this.#limits);
   }
 
   /** @param {KeyboardEvent} event */
@@ -69,7 +69,7 @@ export class TypedNumber {
       const value = keyed(event.key, event.shiftKey, this.#value, this.#limits);
       if (value !== null && value !== this.#value) this.#typed(value, "key");
       this.#typing = false;
-      this.element.value = stepped(this.#value, this.#limits.step);
+      this.element.value = stepped(this.#value, this.#limits);
     }
   }
 }

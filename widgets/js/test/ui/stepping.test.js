@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fit, keyed, nearest, niceBelow, stepBy, stepOf } from "../../src/ui/stepping.js";
+import { digitsOf, fit, keyed, nearest, niceBelow, stepBy, stepOf } from "../../src/ui/stepping.js";
 
 const limits = { lo: 0.2, hi: 2, step: 0.01, stops: null };
 
@@ -11,6 +11,13 @@ test("a step is about a hundredth of the bounds, and 1, 2 or 5 times a power of 
   assert.equal(stepOf({ kind: "integer", step: null, bounds: [0, 5000], default: 20 }), 1);
   assert.equal(stepOf({ kind: "number", step: 0.25, bounds: [0, 1], default: 0 }), 0.25);
   assert.equal(stepOf({ kind: "number", step: null, bounds: null, default: 30 }), 0.2);
+});
+
+test("what a parameter opens with and stops at is shown as it is", () => {
+  assert.equal(digitsOf({ default: 0.3, stops: null }, 0.01), 2);
+  assert.equal(digitsOf({ default: 0.125, stops: [0.25, 1] }, 0.1), 3);
+  assert.equal(digitsOf({ default: 1 / 3, stops: null }, 0.1), 4);
+  assert.equal(digitsOf({ default: [0, 2.5], stops: null }, 1), 1);
 });
 
 test("values stay within bounds, drags on steps, typed numbers keep their digits", () => {
