@@ -4,7 +4,7 @@ import inspect
 from collections.abc import Sequence
 from typing import Any
 
-from reactive4d.scefo.functions import NAMED
+from reactive4d.scefo.functions import LIST, NAMED
 from reactive4d.signals import kernels
 from reactive4d_widgets.lowering.elementary import gather, vector
 from reactive4d_widgets.lowering.rules import BY_NAME, BY_SYMBOL, WITH_OPTIONS, WITHOUT
@@ -23,7 +23,7 @@ def operated(operator: Any, parts: Sequence[Term]) -> Term:
         return constant(operator.one(*[part.value for part in parts]))
     if operator.name == "getitem" and not callable(operator.symbol):
         return gather(parts[0], operator.symbol)
-    if operator is kernels.VECTOR:
+    if operator in (kernels.VECTOR, LIST):
         return vector(parts)
     rule = BY_NAME.get(NAMED.get(operator, "")) or BY_SYMBOL.get(operator.symbol)
     if rule is None or (operator.symbol in WITH_OPTIONS and _options(operator)):

@@ -180,6 +180,13 @@ def _equal(a: Term, b: Term) -> Term:
     return pairs[0]
 
 
+def _item(a: Term, number: Term) -> Term:
+    """A component, counted from 1."""
+    if not number.is_constant:
+        raise NotExactError("a component whose number varies")
+    return gather(a, int(number.value) - 1)
+
+
 def _normalize(a: Term) -> Term:
     return _over(a, _norm(a))
 
@@ -297,6 +304,7 @@ WITH_OPTIONS: Final = (np.dot, np.cross, np.clip, np.linalg.norm, np.round, np.s
 WITHOUT: Final = frozenset([kernels.function(f, {}) for f in (np.cross, np.clip, np.linalg.norm, np.round, np.around)])
 # Functions of scripts that are no functions of NumPy's.
 BY_NAME: Final[dict[str, Rule]] = {
+    "item": _item,
     "normalize": _normalize,
     "rotation": _rotation,
     "quaternion": _quaternion,

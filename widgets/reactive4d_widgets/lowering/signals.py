@@ -169,7 +169,10 @@ class Lowering:
         parts = [self.of(part) for part in x.operands]
         if all(part.is_constant for part in parts):
             return self.opaque(x)
-        return operated(x.operator, parts)
+        try:
+            return operated(x.operator, parts)
+        except NotExactError:
+            return self.opaque(x)
 
     def choice(self, x: Any) -> Term:
         """One of two."""

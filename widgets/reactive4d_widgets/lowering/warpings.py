@@ -88,8 +88,9 @@ def _repeat(period: Term, start: Term) -> Term:
     inner = _of("+", start, _of("%", _of("-", _TIME, start), period))
     if not (period.is_constant and start.is_constant):
         stop = _of("+", start, period)
-        # Never its end, which would be read otherwise.
-        return _where(_of("<", inner, stop), inner, start)
+        # Never its end: a float or two before it.
+        bit = _of("max", _of("*", _of("abs", stop), constant(2.0**-52)), constant(5e-324))
+        return _where(_of("<", inner, stop), inner, _of("-", stop, bit))
     return _of("min", inner, constant(math.nextafter(start.value + period.value, -math.inf)))
 
 
