@@ -4,6 +4,7 @@ import io
 import math
 import operator
 import os
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -40,7 +41,8 @@ def render(
     background: str = "light",
     edges: bool = False,
     shadows: bool = True,
-    **parameters: Any,
+    parameters: Mapping[str, Any] | None = None,
+    **values: Any,
 ) -> None:
     r"""Write a picture of a scene at one instant; no window and no display are needed.
 
@@ -56,7 +58,8 @@ def render(
         edges: whether creases and borders are drawn as lines.
         shadows: whether things throw soft shadows, on the floor below them and, in the light of a lamp that has
             shadows, on each other; a scene without lights is lit by one that has.
-        **parameters: a reader's values.
+        parameters: a reader's values by name, for those that are called like one of these arguments.
+        **values: a reader's values.
 
     Raises:
         UnknownNameError: the path ends with another format, or there is no such camera.
@@ -73,9 +76,8 @@ def render(
     """
     target = Path(path)
     _check_format(target)
-    made = poster(
-        subject, t=t, size=size, camera=camera, background=background, edges=edges, shadows=shadows, **parameters
-    )
+    looks: Any = {"camera": camera, "background": background, "edges": edges, "shadows": shadows}
+    made = poster(subject, t=t, size=size, **looks, parameters={**(parameters or {}), **values})
     put(target, made)
 
 
@@ -88,7 +90,8 @@ def poster(
     background: str = "light",
     edges: bool = False,
     shadows: bool = True,
-    **parameters: Any,
+    parameters: Mapping[str, Any] | None = None,
+    **values: Any,
 ) -> bytes:
     """The same picture as the bytes of a PNG file, for a page to carry.
 
@@ -103,7 +106,8 @@ def poster(
 
     width, height = _size(size)
     theme = _theme(background)
-    frame, view, bounds = seen(subject, t, aspect=width / height, camera=camera, **parameters)
+    given = {**(parameters or {}), **values}
+    frame, view, bounds = seen(subject, t, aspect=width / height, camera=camera, parameters=given)
     composition = composed(frame)
     # Drawn larger and made smaller: smooth edges, of lines and letters too, on every card.
     finer = 2 if max(width, height) * 2 <= LARGEST else 1
@@ -128,7 +132,7 @@ def poster(
 
 
 def seen(
-    subject: Any, t: float, *, aspect: float, camera: Any = None, **parameters: Any
+    subject: Any, t: float, *, aspect: float, camera: Any = None, parameters: Mapping[str, Any] | None = None
 ) -> tuple[Frame, View, NDArray[np.float64]]:
     """What is seen of a subject at a time, from where, and (2, 3) the box of all over its times; as for `render`.
 

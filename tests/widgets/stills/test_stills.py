@@ -339,3 +339,20 @@ def test_the_floor_below_a_thing_is_dark():
     below = {"position": (0, -6, -4), "target": (0, 0, 0)}
     difference = np.abs(drawn(box, camera=below) - drawn(box, camera=below, shadows=False))
     assert difference[:40].max() == 0
+
+
+class Sized(r4.Illustration):
+    """A ball whose parameters are called like arguments."""
+
+    size = param.Number(1.0, bounds=(0.5, 3.0))
+    camera = param.Number(0.0, bounds=(-1.0, 1.0))
+
+    def build(self) -> r4.Scene:
+        """A ball."""
+        return r4.Scene(ball=r4.Sphere(self.signals.size / 2 + 0 * self.signals.camera, color="red"))
+
+
+def test_parameters_may_be_called_like_arguments():
+    """They are given by name in a mapping."""
+    small, large = [inked(drawn(Sized, camera=FRONT, parameters={"size": size})).sum() for size in (1.0, 2.0)]
+    assert large > 2 * small
