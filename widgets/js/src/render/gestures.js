@@ -20,6 +20,8 @@
  * @property {() => void} rest the hand is off
  */
 
+/** CSS pixels that a click or a tap may tremble. */
+const TREMBLE = { touch: 9, mouse: 3 };
 const TURN = (5 * Math.PI) / 180;
 const SHIFT = 0.05;
 const ZOOM = 1.12;
@@ -34,6 +36,8 @@ export class Gestures {
   /** @type {Map<number, {x: number, y: number}>} */
   #fingers = new Map();
   #panning = false;
+  /** @type {{x: number, y: number}|null} where the hand came down, until it has moved */
+  #start = null;
   #end = new AbortController();
 
   /**
@@ -80,6 +84,7 @@ export class Gestures {
     if (event.defaultPrevented) return;
     this.#panning = event.button === 1 || event.button === 2 || event.shiftKey || event.metaKey;
     this.#fingers.set(event.pointerId, place(event));
+    this.#start = this.#fingers.size === 1 ? place(event) : null;
     this.#canvas.setPointerCapture(event.pointerId);
     this.#canvas.style.cursor = "grabbing";
     if (event.pointerType !== "touch") this.#canvas.focus({ preventScroll: true });
@@ -97,6 +102,7 @@ export class Gestures {
     }
     const others = [...this.#fingers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
     this.#fingers.set(event.pointerId, now);
+    if (others.length === 0 && !this.#begun(event, now)) return;
     if (others.length === 0) {
       if (this.#panning) this.#actions.pan(now.x - before.x, now.y - before.y);
       else this.#actions.orbit(now.x - before.x, now.y - before.y);
@@ -107,6 +113,22 @@ export class Gestures {
     const was = Math.hypot(before.x - other.x, before.y - other.y);
     this.#actions.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
     if (wide > 0 && was > 0) this.#actions.dolly(was / wide, (now.x + other.x) / 2, (now.y + other.y) / 2);
+  }
+
+  /**
+   * Whether a stroke of one finger has begun, and is the figure's.
+   * @param {PointerEvent} event
+   * @param {{x: number, y: number}} now
+   */
+  #begun({ pointerType }, now) {
+    if (this.#start === null) return true;
+    const right = Math.abs(now.x - this.#start.x);
+    const down = Math.abs(now.y - this.#start.y);
+    const touches = pointerType === "touch";
+    if (Math.hypot(right, down) < (touches ? TREMBLE.touch : TREMBLE.mouse)) return false;
+    if (touches && !this.#focused && down > right) return false;
+    this.#start = null;
+    return false;
   }
 
   /** @param {PointerEvent} event */

@@ -140,6 +140,7 @@ export class Materials {
           "#include <common>",
           `#include <common>\nvarying vec4 vTint;\nuniform vec3 rim;\nuniform float rimStrength;\n${shaders.MARKER}`,
         )
+        .replace("#include <normal_fragment_begin>", shaders.SIDE)
         .replace("#include <color_fragment>", `${shaders.MARK}\n#include <color_fragment>`)
         .replace("#include <opaque_fragment>", `${shaders.RIM}\n#include <opaque_fragment>`);
     };

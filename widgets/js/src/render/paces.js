@@ -25,7 +25,9 @@ const SLOW = 60;
 const LATE = 30;
 const PATIENCE = 12;
 /** Milliseconds that a picture at rest may take. */
-const PAUSE = 250;
+const PAUSE = 300;
+const FINE = STEPS[STEPS.length - 1].scale;
+const FAIR = 1.5;
 
 /** The pace of one figure. */
 export class Pace {
@@ -33,7 +35,8 @@ export class Pace {
   #ceiling = STEPS.length - 1;
   #good = 0;
   #bad = 0;
-  #cost = 0;
+  #slow = 0;
+  #rest = FINE;
 
   /** How the next moving frame is to be drawn. */
   get step() {
@@ -42,8 +45,18 @@ export class Pace {
 
   /** The most drawn pixels per pixel of the screen for a picture at rest. */
   get rest() {
-    const room = Math.sqrt(PAUSE / Math.max(1, this.#cost)) * this.step.scale;
-    return Math.max(1, Math.min(STEPS[STEPS.length - 1].scale, room));
+    return this.#rest;
+  }
+
+  /**
+   * Learn from a picture at rest.
+   * @param {number} cost milliseconds
+   */
+  rested(cost) {
+    this.#slow = cost > PAUSE ? this.#slow + 1 : 0;
+    if (this.#slow < 2) return; // the first may have waited for its programs
+    this.#rest = this.#rest > FAIR ? FAIR : 1;
+    this.#slow = 0;
   }
 
   /**
@@ -52,7 +65,6 @@ export class Pace {
    * @param {number} interval milliseconds since the frame before, if it followed at once; else 0
    */
   learn(cost, interval) {
-    this.#cost = this.#cost === 0 ? cost : 0.8 * this.#cost + 0.2 * cost;
     this.#bad = cost > DEAR || interval > LATE ? this.#bad + 1 : 0;
     this.#good = cost < CHEAP && interval < LATE ? this.#good + 1 : 0;
     const least = cost > SLOW ? 0 : START;

@@ -18,7 +18,7 @@ export const MARKER = /* glsl */ `
 
 export const RIM = /* glsl */ `
   float grazing = 1.0 - saturate( abs( dot( normal, normalize( vViewPosition ) ) ) );
-  outgoingLight = mix( outgoingLight, rim, rimStrength * pow( grazing, 4.0 ) );
+  outgoingLight = mix( outgoingLight, rim, rimStrength * grazing * grazing * grazing );
   float clear = 1.0 - diffuseColor.a;
   float glow = mark * ( 0.1 + ( 0.3 + 0.6 * clear ) * grazing * grazing );
   outgoingLight = mix( outgoingLight, marker( diffuseColor.rgb ), glow );
@@ -36,6 +36,19 @@ export const NORMAL = /* glsl */ `
   transformedNormal = normalMatrix * transformedNormal;
   #ifdef FLIP_SIDED
     transformedNormal = - transformedNormal;
+  #endif
+`;
+
+// A surface is lit on the side that one sees. At its outline slivers are seen from behind whose normals are those of
+// the front: turned round they would be dark dots.
+export const SIDE = /* glsl */ `
+  #ifdef FLAT_SHADED
+    vec3 normal = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) );
+  #else
+    vec3 normal = normalize( vNormal );
+    #ifdef DOUBLE_SIDED
+      if ( ! gl_FrontFacing && dot( normal, normalize( vViewPosition ) ) < - 0.1 ) normal = - normal;
+    #endif
   #endif
 `;
 

@@ -168,7 +168,8 @@ export class Stage {
     entry.sharp = false;
     entry.view.paint(renderer, this.#blur, sharp);
     const end = performance.now();
-    if (!sharp) entry.view.pace.learn(end - start, start - entry.last < 100 ? start - entry.last : 0);
+    if (sharp) entry.view.pace.rested(end - start);
+    else entry.view.pace.learn(end - start, start - entry.last < 100 ? start - entry.last : 0);
     entry.last = start;
     return true;
   }

@@ -67,10 +67,13 @@ test("a slow machine draws coarsely when moving, and what rests does not make it
   const pace = new Pace();
   for (let i = 0; i < 20; i += 1) pace.learn(100, 120);
   assert.equal(pace.step.scale, 0.75);
-  assert.ok(pace.rest < 1.3 && pace.rest >= 1);
-  const quick = new Pace();
-  quick.learn(10, 16);
-  assert.equal(quick.rest, 2);
+  assert.equal(pace.rest, 2);
+  pace.rested(900);
+  assert.equal(pace.rest, 2, "the first picture waits for its programs");
+  pace.rested(400);
+  assert.equal(pace.rest, 1.5);
+  for (const cost of [350, 350]) pace.rested(cost);
+  assert.equal(pace.rest, 1);
 });
 
 test("the studio goes round with the eye, key from the upper left, fill from the right", () => {
