@@ -1,5 +1,6 @@
 /** Handles on the picture: grips that one drags, with the pointer or by keys, to set parameters. */
 
+import { anchorOf, carried, ORIGIN } from "./anchors.js";
 import { axesOf, limitsOf, surroundings, valueOf, withValues } from "./axes.js";
 import { make, setAll } from "./elements.js";
 import { solve } from "./solving.js";
@@ -12,8 +13,11 @@ import { valueText } from "./speech.js";
  * @typedef {import("./readers.js").Reader} Reader
  * @typedef {import("./axes.js").Axis} Axis
  *
+ * @typedef {{ handle: Handle, axes: Axis[], grip: HTMLElement, anchor: import("./anchors.js").Vec3 | null }} Held
+ *
  * @typedef {object} Scenery where things are
- * @property {(node: string, parameters: Parameters) => [number, number, number] | null} where
+ * @property {(node: string, parameters: Parameters) => ArrayLike<number> | null} matrix 16 numbers, row-major
+ * @property {(node: string) => import("./anchors.js").Vec3 | null} extents half sizes, along the node's own axes
  * @property {(p: [number, number, number]) => { x: number, y: number, depth: number }} project CSS pixels
  * @property {(node: string, parameters: Parameters[]) => void} learn ask where a node would stand
  */
@@ -21,7 +25,7 @@ import { valueText } from "./speech.js";
 export class Handles {
   #reader;
   #scenery;
-  /** @type {{ handle: Handle, axes: Axis[], grip: HTMLElement }[]} */ #grips;
+  /** @type {Held[]} */ #grips;
 
   /** @param {Reader} reader @param {Scenery} scenery */
   constructor(reader, scenery) {
@@ -33,7 +37,7 @@ export class Handles {
       const grip = make("div", { class: "handle", role: "slider", "aria-label": label, title: label });
       grip.dataset.kind = handle.kind;
       if (axes.length > 1) setAll(grip, { "aria-roledescription": "two-way handle" });
-      const held = { handle, axes, grip };
+      const held = /** @type {Held} */ ({ handle, axes, grip, anchor: null });
       listen(grip, held, this.#drag.bind(this));
       grip.addEventListener("focus", () => this.#learn(held));
       grip.addEventListener("keydown", (event) => this.#pressed(event, held));
@@ -45,14 +49,41 @@ export class Handles {
   /** Put every grip where its node is now. */
   place() {
     const { parameters } = this.#reader.session.point;
-    for (const { handle, axes, grip } of this.#grips) {
-      const at = this.#scenery.where(handle.node, parameters);
+    for (const held of this.#grips) {
+      const { axes, grip } = held;
+      const at = this.#where(held, parameters);
       const spot = at && this.#scenery.project(at);
       const seen = spot !== null && spot.depth >= -1 && spot.depth <= 1;
       grip.hidden = !seen;
       if (seen) grip.style.translate = `${spot.x.toFixed(1)}px ${spot.y.toFixed(1)}px`;
       this.#describe(grip, axes, parameters);
     }
+  }
+
+  /** @param {Held} held @param {Parameters} parameters @returns {[number, number, number] | null} */
+  #where(held, parameters) {
+    const matrix = this.#scenery.matrix(held.handle.node, parameters);
+    return matrix && carried(matrix, this.#anchor(held, matrix));
+  }
+
+  /** Where on its node a handle is taken; settled as soon as it is known how the node moves. @param {Held} held
+   * @param {ArrayLike<number>} here the node's matrix */
+  #anchor(held, here) {
+    if (held.anchor || held.handle.kind !== "circle") return held.anchor ?? ORIGIN;
+    const { parameters } = this.#reader.session.point;
+    const [axis] = held.axes;
+    const { lo, hi, step, stops } = limitsOf(this.#reader, axis);
+    const value = valueOf(parameters, axis);
+    const others = stops ?? [value + step, value - step].filter((x) => x >= (lo ?? x) && x <= (hi ?? x));
+    const extents = this.#scenery.extents(held.handle.node);
+    for (const other of others) {
+      if (other === value || !extents) continue;
+      const numbers = withValues(parameters, [axis], [other]);
+      const there = this.#scenery.matrix(held.handle.node, { ...parameters, ...numbers });
+      if (there) held.anchor = anchorOf(here, there, extents);
+      if (there) break;
+    }
+    return held.anchor ?? ORIGIN;
   }
 
   /** @param {HTMLElement} grip @param {Axis[]} axes @param {Parameters} parameters */
@@ -68,16 +99,17 @@ export class Handles {
   }
 
   /**
-   * @param {{ handle: Handle, axes: Axis[] }} held
+   * @param {Held} held
    * @param {[number, number]} target CSS pixels in the picture
    * @param {string} gesture
    */
-  #drag({ handle, axes }, target, gesture) {
+  #drag(held, target, gesture) {
+    const { axes } = held;
     const { parameters } = this.#reader.session.point;
     const limits = axes.map((axis) => limitsOf(this.#reader, axis));
     const freedoms = axes.map((axis, i) => ({ value: valueOf(parameters, axis), ...limits[i] }));
     const found = solve(freedoms, (numbers) => {
-      const at = this.#scenery.where(handle.node, { ...parameters, ...withValues(parameters, axes, numbers) });
+      const at = this.#where(held, { ...parameters, ...withValues(parameters, axes, numbers) });
       const spot = at && this.#scenery.project(at);
       return spot && spot.depth >= -1 && spot.depth <= 1 ? [spot.x, spot.y] : null;
     }, target);
@@ -88,18 +120,18 @@ export class Handles {
 
   /**
    * Where the node stands at other stops is asked for as soon as a handle is taken.
-   * @param {{ handle: Handle, axes: Axis[] }} held
+   * @param {Held} held
    */
   #learn({ handle, axes }) {
     const { parameters } = this.#reader.session.point;
     const others = surroundings(axes.map((axis) => ({
       value: valueOf(parameters, axis), stops: limitsOf(this.#reader, axis).stops,
     }))).map((numbers) => ({ ...parameters, ...withValues(parameters, axes, numbers) }));
-    const unknown = others.filter((there) => this.#scenery.where(handle.node, there) === null);
+    const unknown = others.filter((there) => this.#scenery.matrix(handle.node, there) === null);
     if (unknown.length) this.#scenery.learn(handle.node, unknown);
   }
 
-  /** @param {KeyboardEvent} event @param {{ axes: Axis[], grip: HTMLElement }} held */
+  /** @param {KeyboardEvent} event @param {Held} held */
   #pressed(event, { axes, grip }) {
     if (event.ctrlKey || event.metaKey || event.altKey || grip.hasAttribute("aria-disabled")) return;
     const upward = ["ArrowUp", "ArrowDown", "PageUp", "PageDown"].includes(event.key);

@@ -1,5 +1,6 @@
 /** A figure that lives: session, clock, picture, player, controls and handles, wired together. */
 
+import { carried, extentsOf, ORIGIN } from "./anchors.js";
 import { Controls } from "./controls.js";
 import { make, reducedMotion, setAll, setText } from "./elements.js";
 import { timeText } from "./formats.js";
@@ -60,7 +61,8 @@ export class Life {
     this.player = new Player(this.reader, this.menu.toggle);
     this.controls = new Controls(this.reader);
     this.handles = new Handles(this.reader, {
-      where: (node, parameters) => this.#where(node, parameters),
+      matrix: (node, parameters) => this.#matrix(node, parameters),
+      extents: (node) => this.#extents(node),
       project: (p) => this.view?.project(p) ?? { x: 0, y: 0, depth: NaN },
       learn: (node, others) => this.#learn(node, others),
     });
@@ -197,20 +199,31 @@ export class Life {
   }
 
   /**
-   * Where a node stands in the world: at the reader's point from what is shown, elsewhere as the session knows it.
+   * How a node stands in the world: at the reader's point as it is shown if nothing better is known, elsewhere as the
+   * session knows it; null if it is not shown, or not known.
    * @param {string} node
-   * @param {import("../core/types.js").Parameters} parameters
-   * @returns {[number, number, number] | null}
+   * @param {Parameters} parameters
+   * @returns {ArrayLike<number> | null}
    */
-  #where(node, parameters) {
+  #matrix(node, parameters) {
     const { session } = this.#parts;
     const shown = this.snapshot?.nodes.get(node);
     if (shown && !shown.visible) return null;
-    const value = session.evaluate(`${node}#matrix`, session.point.time, parameters)
-      ?? (parameters === session.point.parameters ? shown?.matrix : null);
-    if (!value || typeof value !== "object") return null;
-    const m = /** @type {ArrayLike<number>} */ (value);
-    return [m[3], m[7], m[11]];
+    const value = session.evaluate(`${node}#matrix`, session.point.time, parameters);
+    if (value) return /** @type {ArrayLike<number>} */ (value);
+    return parameters === session.point.parameters ? shown?.matrix ?? null : null;
+  }
+
+  /** @param {string} node */
+  #extents(node) {
+    const points = this.snapshot?.nodes.get(node)?.points;
+    return points ? extentsOf(points.a.array) : null;
+  }
+
+  /** Where a node's origin is in the world. @param {string} node */
+  #where(node) {
+    const matrix = this.#matrix(node, this.reader.session.point.parameters);
+    return matrix && carried(matrix, ORIGIN);
   }
 
   /** Ask where a node stands for other parameters. @param {string} node @param {Parameters[]} others */
@@ -231,7 +244,7 @@ export class Life {
 
   /** An object by its name. @param {string | null} name */
   find(name) {
-    const at = name === null ? null : this.#where(name, this.reader.session.point.parameters);
+    const at = name === null ? null : this.#where(name);
     this.select(name === null || !at ? null : { name, position: at, ...this.view?.project(at) });
     if (name !== null && !at) this.mark("selection", name);
   }
@@ -240,7 +253,7 @@ export class Life {
   #label() {
     if (!this.#selected) return;
     const { name } = this.#selected;
-    const at = this.#where(name, this.reader.session.point.parameters);
+    const at = this.#where(name);
     const spot = at && this.view?.project(at);
     if (at && spot && spot.depth <= 1) this.picture.hover({ name, position: at, x: spot.x, y: spot.y });
     else this.picture.hover(null);
