@@ -6,18 +6,24 @@ import math
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Sequence
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
-from reactive4d_apps import demo
+from reactive4d_apps import stories
+from reactive4d_apps.demos import demonstrated
+from reactive4d_apps.pages import baked
 from reactive4d_apps.shows import answers_of, show
 
 __all__ = ["main"]
 
+LIMIT = 20.0  # MB
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit status: 0 when it worked, 1 when the model refused.
+    """Run one command and return its exit status: 0 when it worked, 1 when the model or the machine refused.
 
     Args:
         arguments: the words after the program's name; by default those that the shell gave.
@@ -33,12 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if words.command is None:
         parser.print_help()
         return 0
-    width = shutil.get_terminal_size().columns
     try:
-        if words.command == "demo":
-            _show(demo.story(words.times, width=width))
-        else:
-            _show(show(answers_of(r4.Scene.load(words.script)), words.at, width=width))
+        for line in _told(words, shutil.get_terminal_size().columns):
+            _say(line)
     except Reactive4dError as error:
         print("reactive4d:", error, *getattr(error, "__notes__", ()), sep="\n  ", file=sys.stderr)
         return 1
@@ -46,9 +49,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever read has read enough; what is still in the buffer goes nowhere instead of failing at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        print(f"reactive4d: {error.filename}: {error.strerror}", file=sys.stderr)
+        said = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        print(f"reactive4d: {said}", file=sys.stderr)
         return 1
     return 0
+
+
+def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
+    """Do what a command says, and tell of it line by line."""
+    if words.command == "demo":
+        place = words.output or Path(tempfile.mkdtemp(prefix="reactive4d-")) / "demo.html"
+        yield from demonstrated(place, check=words.check, width=width)
+    elif words.command == "bake":
+        place = words.output or Path(words.script).with_suffix(".html").name
+        scene = r4.Scene.load(words.script)
+        yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
+    elif words.script is None:
+        yield from stories.story(words.at or stories.TIMES, width=width)
+    else:
+        yield from show(answers_of(r4.Scene.load(words.script)), words.at or (0.0,), width=width)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -56,20 +75,36 @@ def _parser() -> argparse.ArgumentParser:
     version = importlib.metadata.version("reactive4d")
     parser.add_argument("--version", action="version", version=f"reactive4d {version}")
     commands = parser.add_subparsers(dest="command", metavar="command", title="commands")
-    about = "ask a small animated scene for a few instants"
-    shown = commands.add_parser("demo", help=about, description=f"{about.capitalize()} and print what it answers.")
-    default = " ".join(f"{t:g}" for t in demo.TIMES)
-    _add_times(shown, "--times", demo.TIMES, default)
+
+    about = "make a page of a small animated scene, and open it"
+    demo = commands.add_parser("demo", help=about, description=f"{about.capitalize()} in a browser, if there is one.")
+    _add_output(demo, "a temporary folder")
+    about = "write a picture of the page as well, and do not open it"
+    demo.add_argument("--check", action="store_true", help=about)
+
+    about = "make a page of a script that needs no server"
+    bake = commands.add_parser("bake", help=about, description=f"{about.capitalize()}.")
+    bake.add_argument("script", metavar="script.scefo", help="a script; see docs/scefo.md")
+    _add_output(bake, "the script's name, here")
+    about = "the span that the page covers, seconds (default: that of the keys, else 0 to 10)"
+    bake.add_argument("--times", type=_number, nargs=2, metavar=("START", "STOP"), help=about)
+    bake.add_argument("--title", metavar="TEXT", help="what stands above the figure")
+    about = f"a larger page is refused (default {LIMIT:g})"
+    bake.add_argument("--limit", type=_positive, default=LIMIT, metavar="MB", help=about)
+
     about = "print what the scene of a script shows at some instants"
     shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")
-    shown.add_argument("script", metavar="script.scefo", help="a script; see docs/scefo.md")
-    _add_times(shown, "--at", (0.0,), "0")
+    about = "a script; without one the demo's, with what it costs to ask"
+    shown.add_argument("script", nargs="?", metavar="script.scefo", help=about)
+    default = " ".join(f"{t:g}" for t in stories.TIMES)
+    about = f"instants, seconds (default 0; {default} without a script)"
+    shown.add_argument("--at", "--times", type=_number, nargs="+", metavar="T", help=about)
     return parser
 
 
-def _add_times(parser: argparse.ArgumentParser, name: str, default: Sequence[float], told: str) -> None:
-    about = f"instants, seconds (default {told})"
-    parser.add_argument(name, type=_number, nargs="+", default=default, metavar="T", help=about)
+def _add_output(parser: argparse.ArgumentParser, default: str) -> None:
+    about = f"where the page is written (default: {default})"
+    parser.add_argument("-o", "--output", type=Path, metavar="page.html", help=about)
 
 
 def _number(word: str) -> float:
@@ -82,13 +117,19 @@ def _number(word: str) -> float:
     return number
 
 
-def _show(lines: Iterable[str]) -> None:
-    text = "\n".join(lines)
+def _positive(word: str) -> float:
+    number = _number(word)
+    if number <= 0.0:
+        raise argparse.ArgumentTypeError(f"expected a number above 0, got {word!r}")
+    return number
+
+
+def _say(line: str) -> None:
     try:
-        text.encode(sys.stdout.encoding or "ascii")
+        line.encode(sys.stdout.encoding or "ascii")
     except UnicodeEncodeError:
-        text = text.replace("─", "-")
-    print(text, flush=True)
+        line = line.replace("─", "-").encode("ascii", "replace").decode()
+    print(line, flush=True)
 
 
 if __name__ == "__main__":

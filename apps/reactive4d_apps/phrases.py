@@ -8,7 +8,7 @@ from typing import Any
 from reactive4d.signals.colors import COLOR_NAMES
 from reactive4d_apps.tables import stacked, table
 
-__all__ = ["colored", "fitting", "held", "paragraph", "placed", "seconds"]
+__all__ = ["colored", "fitting", "held", "paragraph", "placed", "seconds", "sized"]
 
 # Of several names the last one: cyan and magenta, but gray.
 _NAMES = {code: name for name, code in sorted(COLOR_NAMES.items()) if "grey" not in name}
@@ -57,6 +57,17 @@ def seconds(t: float) -> str:
     '2.5 s'
     """
     return f"{t:g} s"
+
+
+def sized(count: int) -> str:
+    """A number of bytes.
+
+    >>> sized(312), sized(812_345), sized(1_234_567)
+    ('312 bytes', '812 KB', '1.2 MB')
+    """
+    if count < 1000:
+        return f"{count} bytes"
+    return f"{count / 1000:.0f} KB" if count < 1_000_000 else f"{count / 1_000_000:.1f} MB"
 
 
 def paragraph(text: str, width: int) -> list[str]:

@@ -4,7 +4,6 @@ In CI (the environment says so) these tests run without exception; elsewhere the
 """
 
 import os
-import shutil
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -16,19 +15,8 @@ sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder 
 
 from readers import Reader
 
-FLAGS = [
-    "--no-sandbox",
-    # Mesa's llvmpipe through EGL: no display, no graphics card, and twice as fast as the software that Chromium brings.
-    "--use-gl=angle",
-    "--use-angle=gl-egl",
-    "--ignore-gpu-blocklist",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-    "--disable-quic",
-]
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+from reactive4d_apps.browsers import FLAGS, chromium, driver
+
 ADVICE = "to run the tests in a browser: apt-get install chromium; pip install '.[test]'"
 
 
@@ -43,16 +31,13 @@ def _missing(what: str) -> None:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A browser for the tests of one file, so that nothing of it is left when others run."""
-    path = next(filter(None, map(shutil.which, NAMES)), None)
+    path, playing = chromium(), driver()
     if path is None:
         _missing("there is no Chromium here")
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
+    if playing is None:
         _missing("there is no Playwright here")
-        raise
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=FLAGS)
+    with playing.sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
         yield started
         started.close()
 

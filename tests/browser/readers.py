@@ -4,8 +4,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from reactive4d_apps.browsers import NEAR
+
 SIZE = (1280, 900)
-NEAR = ("file:///", "blob:", "data:", "about:")  # file://host/ is elsewhere
 
 
 class Reader:

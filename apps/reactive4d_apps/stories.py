@@ -1,22 +1,15 @@
 """The first script of the paper on BAGS (1990), moving: what it shows at three instants, and what it cost to ask."""
 
 from collections.abc import Iterator, Sequence
-from importlib.resources import as_file, files
 
 import reactive4d as r4
+from reactive4d_apps.demos import SCRIPT, stored
 from reactive4d_apps.phrases import fitting, paragraph
 from reactive4d_apps.shows import Answers, answers_of, show
 
-__all__ = ["TIMES", "stored", "story"]
+__all__ = ["TIMES", "story"]
 
 TIMES = (1.0, 3.0, 5.0)
-SCRIPT = "figure1_moving.scefo"
-
-
-def stored() -> r4.Scene:
-    """The scene, from the script and the four OFF files that come with the package."""
-    with as_file(files("reactive4d.scefo") / "scenes") as folder:
-        return r4.Scene.load(folder / SCRIPT)
 
 
 def story(times: Sequence[float] = TIMES, *, width: int = 80) -> Iterator[str]:

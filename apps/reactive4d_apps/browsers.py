@@ -1,0 +1,95 @@
+"""Browsers: a page is opened and looked at by a program, and noted down as a picture."""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+__all__ = ["FLAGS", "NEAR", "chromium", "driver", "photographed"]
+
+# Mesa's llvmpipe through EGL: no display and no graphics card, and twice as fast as the software that Chromium brings.
+FLAGS = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=gl-egl",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--disable-quic",
+)
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+NEAR = ("file:///", "blob:", "data:", "about:")  # file://host/ is elsewhere
+PATIENCE = 60_000  # ms
+REST = 1_000  # ms; what stands still is drawn once more, finely
+
+
+def chromium() -> str | None:
+    """Where Chromium is; None where there is none."""
+    return next(filter(None, map(shutil.which, NAMES)), None)
+
+
+def driver() -> Any:
+    """What drives it, Playwright; None where it is not installed."""
+    try:
+        from playwright import sync_api
+    except ImportError:
+        return None
+    return sync_api
+
+
+def photographed(page: Path, picture: Path, *, size: tuple[int, int] = (1100, 1000)) -> list[str]:
+    """Open a page in Chromium without a network, wait until its figures live, and write what is seen.
+
+    Args:
+        page: of `bake`.
+        picture: a PNG file to be written.
+        size: of the window, CSS pixels.
+
+    Returns:
+        What the browser complained about, and what the page asked for elsewhere.
+
+    Raises:
+        LookupError: there is no Chromium here, or nothing to drive it.
+    """
+    path, playing = chromium(), driver()
+    if path is None or playing is None:
+        raise LookupError("there is no Chromium here, or no Playwright")
+    said: list[str] = []
+    with playing.sync_playwright() as playwright:
+        browser: Any = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+        try:
+            window = browser.new_page(viewport={"width": size[0], "height": size[1]}, offline=True)
+            _listen(window, said)
+            window.goto(page.resolve().as_uri())
+            window.wait_for_function(
+                "() => { const all = [...document.querySelectorAll('r4d-figure')];"
+                " return all.length > 0 && all.every((figure) => figure.snapshot) }",
+                timeout=PATIENCE,
+            )
+            window.wait_for_timeout(REST)
+            window.screenshot(path=picture)
+        except playing.Error as error:
+            said.append(str(error).splitlines()[0])
+        finally:
+            browser.close()
+    return said
+
+
+def _listen(window: Any, said: list[str]) -> None:
+    """Note down what a window complains about, and what it asks for that is not in the file."""
+
+    def hear(line: Any) -> None:
+        if line.type in ("error", "warning"):
+            said.append(line.text)
+
+    def fail(error: Any) -> None:
+        said.append(str(error))
+
+    def ask(request: Any) -> None:
+        if not request.url.startswith(NEAR):
+            said.append(f"asks for {request.url}")
+
+    window.on("console", hear)
+    window.on("pageerror", fail)
+    window.on("request", ask)
