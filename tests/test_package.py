@@ -32,10 +32,11 @@ def short(path: Path) -> str:
     return path.relative_to(next((p.parent for p in PACKAGES if p in path.parents), ROOT)).as_posix()
 
 
-def python(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+def python(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
     """Run this interpreter in a process of its own, warnings being errors."""
     return subprocess.run(
         [sys.executable, "-W", "error", *arguments],
+        cwd=cwd,
         capture_output=True,
         encoding="utf-8",
         env={**os.environ, "PYTHONIOENCODING": "utf-8", **environment},
@@ -163,10 +164,10 @@ def blocks(path: Path, language: str) -> list[tuple[str, str | None]]:
 
 
 @pytest.mark.parametrize("path", [page for page in PAGES if blocks(page, "python")], ids=short)
-def test_the_programs_of_a_page_print_what_the_page_says(path: Path):
+def test_the_programs_of_a_page_print_what_the_page_says(path: Path, tmp_path: Path):
     """Each program of a page runs by itself, and prints the text that stands below it."""
     for program, text in blocks(path, "python"):
-        run = python("-c", program)
+        run = python("-c", program, cwd=tmp_path)
         assert run.returncode == 0, run.stderr
         if text:
             assert run.stdout == text
