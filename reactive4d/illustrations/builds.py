@@ -66,6 +66,10 @@ class Shared:
             known = [other for other, parameter in parameters.items() if kind_of(parameter) is not None]
             near = unknown(name, known, what="parameter")
             error = AttributeError(f"{self.owner.__name__} has no parameter {name!r}")
+            if hasattr(self.owner, name) and not callable(getattr(self.owner, name)):
+                raise hint(
+                    error, f"it is a plain attribute of the class: {name} = param.Number(…) declares a parameter"
+                )
             raise hint(error, near.__notes__[0].removeprefix("hint: "))
         if kind_of(parameters[name]) is None:
             raise refused_kind(parameters[name])

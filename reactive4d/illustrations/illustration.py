@@ -70,6 +70,16 @@ class Signals(Mapping[str, Signal[Any]]):
         return f"<signals of {self._shared.owner.__name__}: {', '.join(self)}>"
 
 
+class _OfClass:
+    """The signals of a class, from the class itself and from any reader."""
+
+    def __get__(self, reader: Any, owner: Any) -> Signals:
+        return Signals(owner._shared)
+
+    def __set__(self, reader: Any, value: Any) -> NoReturn:
+        raise hint(AttributeError("signals cannot be set"), "a reader sets a parameter: fig.length = value")
+
+
 class Illustration(param.Parameterized):
     """A model whose parameters readers drive; `build` describes it once for all of them.
 
@@ -101,6 +111,8 @@ class Illustration(param.Parameterized):
     ...
     ValueError: Number parameter 'Pendulum.length' must be at most 2.0, not 9.
     """
+
+    signals = _OfClass()
 
     _shared: ClassVar[Shared]
     _time: float | None = None
@@ -137,11 +149,6 @@ class Illustration(param.Parameterized):
         """
         error = Reactive4dError(f"{type(self).__name__} has no build()")
         raise hint(error, "def build(self): … return r4.Scene(…)")
-
-    @property
-    def signals(self) -> Signals:
-        """The parameters as signals, by name; shared by all readers."""
-        return Signals(type(self)._shared)
 
     @property
     def scene(self) -> Scene:

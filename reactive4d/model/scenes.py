@@ -4,9 +4,11 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, NoReturn, Self
 
+import numpy as np
+
 from reactive4d.devices import device
 from reactive4d.engine import Source, engine
-from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
+from reactive4d.errors import Reactive4dError, ShapeError, TimeError, hint, unknown
 from reactive4d.model.bundles import Bundle, Gathered, Root
 from reactive4d.model.formats import format_of
 from reactive4d.model.frames import Frame
@@ -173,7 +175,13 @@ class Scene(MutableMapping[str, Object]):
     # -- what it shows ---------------------------------------------------------------------------------------------
 
     def at(self, t: float, /, **parameters: Any) -> Frame:
-        """What a viewer needs at a time, for a reader's parameters."""
+        """What a viewer needs at a time, for a reader's parameters.
+
+        Raises:
+            TimeError: it is not one time.
+        """
+        if isinstance(t, list | tuple | np.ndarray) and np.ndim(t):  # pyright: ignore
+            raise hint(TimeError(f"scene asked at t = {t!r}: expected one time"), "[scene.at(t) for t in times]")
         root, bundle = self._frame.at(t, **parameters)
         return Frame(float(t), root.items, bundle)
 

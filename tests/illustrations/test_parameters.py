@@ -180,6 +180,9 @@ def test_signals_are_a_mapping_in_the_order_of_the_class():
     assert repr(signals) == f"<signals of Everything: {', '.join(names)}>"
     with pytest.raises(AttributeError, match=r"signals.number cannot be set"):
         signals.number = 3
+    assert Everything.signals.number is signals.number
+    with pytest.raises(AttributeError, match="signals cannot be set"):
+        Everything().signals = signals
 
 
 @pytest.mark.parametrize(
@@ -281,6 +284,37 @@ def test_a_subclass_of_a_kind_is_of_that_kind():
     assert Doubling().at(0.0, count=4)["ball"].primitive == "mesh"
     with pytest.raises(r4.ParameterError, match="3 is odd"):
         Doubling().at(0.0, count=3)
+
+
+def test_a_plain_attribute_is_no_parameter():
+    """A number that was not declared with param is told from a name that is not there at all."""
+
+    class Plain(r4.Illustration):
+        size = 1.0
+
+        def build(self) -> r4.Scene:
+            return r4.Scene(ball=r4.Sphere(self.signals.size))
+
+    with pytest.raises(AttributeError, match="Plain has no parameter 'size'") as refused:
+        Plain().at(0.0)
+    assert "size = param.Number" in refused.value.__notes__[0]
+
+
+def test_defaults_and_bounds_of_the_class_may_be_changed():
+    """As with param: readers that set nothing follow the class."""
+
+    class Late(r4.Illustration):
+        size = param.Number(1.0, bounds=(0, 2))
+
+        def build(self) -> r4.Scene:
+            return r4.Scene(ball=r4.Sphere(self.signals.size))
+
+    reader = Late()
+    assert reader.at(0.0)["ball"].drawn.points.max() == 1.0
+    Late.size = 2.0
+    assert reader.at(0.0)["ball"].drawn.points.max() == 2.0
+    Late.param.size.bounds = (0, 5)
+    assert Late(size=4.0).at(0.0)["ball"].drawn.points.max() == 4.0
 
 
 def test_two_classes_may_have_parameters_of_one_name():

@@ -115,6 +115,8 @@ def test_one_object_in_two_scenes_is_computed_once() -> None:
         lambda s: r4.Scene(x=1),
         lambda s: s.at(float("nan")),
         lambda s: s.at("now"),
+        lambda s: s.at([0.0, 1.0]),
+        lambda s: s.at(np.arange(3.0)),
         lambda s: s.at(0, sped=3),
     ],
 )
