@@ -59,7 +59,10 @@ const PROGRAMS = [
   "sprite",
 ];
 
-/** @type {Map<string, string>} what stands where a whole module is not wanted: as much as the renderer touches of it. */
+/**
+ * What stands where a whole module is not wanted: as much as the renderer touches of it.
+ * @type {Map<string, string>}
+ */
 const MODULES = new Map([
   [
     "renderers/webxr/WebXRManager.js",

@@ -12,7 +12,7 @@
 
 /** @type {Step[]} */
 const STEPS = [
-  { scale: 0.75, shadows: false, skips: 3 },
+  { scale: 0.75, shadows: false, skips: 8 },
   { scale: 1, shadows: false, skips: 2 },
   { scale: 1, shadows: true, skips: 0 },
   { scale: 1.5, shadows: true, skips: 0 },
