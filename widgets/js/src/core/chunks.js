@@ -3,7 +3,9 @@
  *
  * `raw` is byte-shuffled: all first bytes, all second bytes, and so on. `u16` has whole numbers from 0 to 65535 between
  * `lo` and `hi` of each column, in the order array, column, row; of each array the differences to the one before (of
- * the first: to the row before), all low bytes and then all high ones. Both are deflated (RFC 1951), in base 64.
+ * the first: to the row before), all low bytes and then all high ones. `u16s` is for surfaces that deform: of each
+ * array the differences to the one before (the first: to zeros), and of these to the row before, small ones of either
+ * sign as small numbers. All are deflated (RFC 1951), in base 64.
  */
 import { list, object, oneOf, own, ref, refuse, row, whole } from "./checks.js";
 import { WireError } from "./errors.js";
@@ -15,7 +17,7 @@ import { bytes } from "./numbers.js";
 export const MOST_BYTES = 512 * 2 ** 20;
 
 const DTYPES = /** @type {const} */ (["f32", "u32"]);
-const ENCODINGS = /** @type {const} */ (["raw", "u16"]);
+const ENCODINGS = /** @type {const} */ (["raw", "u16", "u16s"]);
 
 /**
  * @param {any} value a chunk as it travelled
@@ -33,12 +35,13 @@ export async function decode(value, path = "chunk") {
   const size = shape[0] * (shape[1] ?? 1);
   const count = refs.length * size;
   if (count * 4 > MOST_BYTES) throw new WireError(path, `expected at most ${MOST_BYTES} bytes, got ${count * 4}`);
-  if (encoding === "u16" && dtype !== "f32") refuse(`${path}.encoding`, "raw for u32", encoding);
-  const width = encoding === "u16" ? 2 : 4;
-  const ranges = encoding === "u16" ? rangesOf(chunk, path, shape[1] ?? 1) : [];
+  const coarse = encoding !== "raw";
+  if (coarse && dtype !== "f32") refuse(`${path}.encoding`, "raw for u32", encoding);
+  const width = coarse ? 2 : 4;
+  const ranges = coarse ? rangesOf(chunk, path, shape[1] ?? 1) : [];
   const planes = await inflate(bytes(own(chunk, "data"), `${path}.data`, MOST_BYTES), `${path}.data`, count * width);
-  const arrays = encoding === "u16"
-    ? spread(planes, shape, refs.length, ranges)
+  const arrays = coarse
+    ? spread(planes, shape, refs.length, ranges, encoding === "u16s")
     : refs.map((_, i) => unshuffled(planes, dtype, i * size, size));
   /** @type {Map<string, Blob>} */
   const made = new Map();
@@ -91,8 +94,8 @@ function unshuffled(planes, dtype, start, size) {
 }
 
 /** @param {Uint8Array} planes @param {readonly number[]} shape @param {number} count of arrays
- * @param {number[][]} ranges of the columns */
-function spread(planes, shape, count, [lo, hi]) {
+ * @param {number[][]} ranges of the columns @param {boolean} smooth whether neighbours move alike */
+function spread(planes, shape, count, [lo, hi], smooth) {
   const [rows, columns = 1] = shape;
   const size = rows * columns;
   const half = count * size;
@@ -107,9 +110,9 @@ function spread(planes, shape, count, [lo, hi]) {
       let last = 0;
       for (let r = 0, to = column; r < rows; r++, at++, i++, to += columns) {
         const delta = planes[i] | (planes[half + i] << 8);
-        last = ((one === 0 ? last : steps[at]) + delta) & 65535;
-        steps[at] = last;
-        made[to] = low + (last / 65535) * range;
+        last = smooth ? last + ((delta >>> 1) ^ -(delta & 1)) : (one === 0 ? last : steps[at]) + delta;
+        steps[at] = smooth ? steps[at] + last : last; // modulo 65536, as these arrays are
+        made[to] = low + (steps[at] / 65535) * range;
       }
     }
   }

@@ -31,8 +31,8 @@
  * @property {Ref[]} refs
  * @property {"f32"|"u32"} dtype
  * @property {number[]} shape of each: [n, k], or [n]
- * @property {"raw"|"u16"} encoding
- * @property {number[]} [lo] of each column; u16 only
+ * @property {"raw"|"u16"|"u16s"} encoding
+ * @property {number[]} [lo] of each column; not of raw
  * @property {number[]} [hi]
  * @property {string} data base64 of deflate-raw
  */

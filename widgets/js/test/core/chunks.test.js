@@ -24,6 +24,21 @@ test("points of 16 bits come back to half a step of their range", async () => {
   }
 });
 
+test("arrays whose neighbours move alike come back as Python packed them", async () => {
+  const made = await decode({
+    refs: ["6ef3cf5598d3cd7b0975b1640c1540fd", "8a8719fbcd87dc3ec8d550c7b3f42527", "eb27c9fb7a79abbe3fe03672ca80ae58"],
+    dtype: "f32", shape: [7, 2], encoding: "u16s",
+    lo: [-4.794621467590332, -3.0], hi: [4.946791172027588, 9.0],
+    data: "Y1C4cve77CQGCFDw3ih5a0MTw6pVa4DoCpizmwHEWbXqz13Bk69NN0FV3j19W2nbc2cGLTAQBHPmQXkA",
+  });
+  [...made.values()].forEach(({ array }, k) => {
+    for (let i = 0; i < 7; i++) {
+      assert.ok(Math.abs(array[2 * i] - 5 * Math.sin(i + k)) <= 1e-4);
+      assert.ok(Math.abs(array[2 * i + 1] - (i * k - 3)) <= 1e-4);
+    }
+  });
+});
+
 test("a column without extent comes back as it is", async () => {
   const flat = named(new Float32Array([1, 2, 0.25, 3, 5, 0.25]), [2, 3]);
   const blob = (await decode(packU16([flat]))).get(flat.ref);
