@@ -4,8 +4,10 @@ Where a channel can be lowered exactly, nothing is asked. Where it moves, its nu
 is too rough for a curve, are swept: asked as often as needed, and no oftener.
 """
 
+import itertools
 import math
-from collections.abc import Mapping
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -60,12 +62,14 @@ class Coverer:
         asker: who asks.
         store: where arrays are kept.
         size: of the scene, metres: what counts as an error is a ten-thousandth of it.
+        keys: the times of all keys, in their order.
     """
 
-    def __init__(self, asker: Asker, store: Store, size: float) -> None:
+    def __init__(self, asker: Asker, store: Store, size: float, *, keys: Sequence[float] = ()) -> None:
         self.asker = asker
         self.store = store
         self.size = size
+        self.keys = tuple(keys)
         self._splits: dict[Any, dict[str, Any]] = {}
         self._gates: dict[Seat, Gate | None] = {}
 
@@ -212,38 +216,49 @@ class Coverer:
             times, values = ticks_of(piece, None, self.asker.span)
             return [Segment(name, piece.lo, piece.hi, where, held(times, values))]
         if not piece.moves:
-            ref = self._points(name, piece.boxes[0].value)
-            return [] if ref is None else [Segment(name, piece.lo, piece.hi, where, {"kind": "ref", "ref": ref})]
+            value = piece.boxes[0].value
+            track = None if value is None else {"kind": "ref", "ref": self._points(name, value)}
+            return [] if track is None else [Segment(name, piece.lo, piece.hi, where, track)]
         times, values = ticks_of(piece, after, self.asker.span)
-        smooth = self._keeps_topology(channel, times, where)
-        if len(values) > len(piece.boxes) and not (smooth and _comes_to_rest(values)):
-            times, values = times[:-1], values[:-1]
-        refs = [self._points(name, value) for value in values]
-        if any(ref is None for ref in refs):
+        if any(value is None for value in values):
             return []
-        track: dict[str, Any]
+        smooth = self._keeps_topology(channel, times, where)
+        found: list[Segment] = []
+        lo = piece.lo
+        for first, last in stretches(values) if smooth else [(0, len(values))]:
+            # What jumps does so at a key, if there is one between the ticks, else at the later one.
+            hi = piece.hi if last == len(values) else self._border(times[last - 1], times[last])
+            refs = [self._points(name, value) for value in values[first:last]]
+            if lo < hi:
+                found.extend(self._sampled(Segment(name, lo, hi, where, None), times[first:last], refs, smooth=smooth))
+            lo = hi
+        return found
+
+    def _border(self, before: float, after: float) -> float:
+        """Where between two ticks something jumped."""
+        i = bisect_right(self.keys, before)
+        return self.keys[i] if i < len(self.keys) and self.keys[i] <= after else after
+
+    def _sampled(self, segment: Segment, times: list[float], refs: list[str], *, smooth: bool) -> list[Segment]:
+        """Shapes at ticks; the last of them may come before its tick."""
+        step = self.asker.span.step
         if len(set(refs)) == 1:
-            track = {"kind": "ref", "ref": refs[0]}
-        else:
-            step = self.asker.span.step
-            track = {"kind": "samples", "start": times[0], "step": step, "refs": refs, "blend": smooth}
-            if len(values) > len(piece.boxes) and times[-1] - times[-2] < 0.999 * step:
-                # It rests before the tick is over: the last stretch is a track of its own.
-                return self._with_end(Segment(name, piece.lo, piece.hi, where, track), times)
-        return [Segment(name, piece.lo, piece.hi, where, track)]
-
-    def _with_end(self, segment: Segment, times: list[float]) -> list[Segment]:
-        assert segment.track is not None
-        *refs, last = segment.track["refs"]
-        end = {**segment.track, "start": times[-2], "step": times[-1] - times[-2], "refs": [refs[-1], last]}
+            segment.track = {"kind": "ref", "ref": refs[0]}
+            return [segment]
+        # A shape that is held is there from its very tick on, however the quotient is rounded.
+        start = times[0] if smooth else times[0] - 1e-6 * step
+        track = {"kind": "samples", "start": start, "step": step, "refs": refs, "blend": smooth}
+        segment.track = track
+        if not smooth or times[-1] - times[-2] > 0.999 * step:
+            return [segment]
+        end = {**track, "start": times[-2], "step": times[-1] - times[-2], "refs": refs[-2:]}
         tail = Segment(segment.channel, times[-2], segment.hi, segment.where, end)
-        if len(refs) == 1:
+        if len(refs) == 2:
             return [Segment(segment.channel, segment.lo, segment.hi, segment.where, end)]
-        head = Segment(segment.channel, segment.lo, times[-2], segment.where, {**segment.track, "refs": refs})
-        return [head, tail]
+        return [Segment(segment.channel, segment.lo, times[-2], segment.where, {**track, "refs": refs[:-1]}), tail]
 
-    def _points(self, name: str, value: Any) -> str | None:
-        return None if value is None else self.store.keep(value, name)
+    def _points(self, name: str, value: Any) -> str:
+        return self.store.keep(value, name)
 
     def _keeps_topology(self, channel: Channel, times: list[float], where: Mapping[str, Any]) -> bool:
         """Whether the same points make the same faces all the time, so that one may go from one shape to the next."""
@@ -337,9 +352,25 @@ def _key(parts: Any) -> tuple[str | None, ...]:
     return tuple([None if part is None else reference(part) for part in parts])
 
 
-def _comes_to_rest(values: list[Any]) -> bool:
-    """Whether the last step is not much larger than the one before: else it is a jump, and no motion."""
-    if len(values) < 3 or any(value is None or np.shape(value) != np.shape(values[-1]) for value in values[-3:]):
-        return False
-    before, last = (float(np.abs(values[i] - values[i - 1]).max(initial=0.0)) for i in (-2, -1))
-    return last <= JUMP * before
+def stretches(values: Sequence[Any]) -> list[tuple[int, int]]:
+    """From where to where shapes move on: a step that is much larger than those beside it is a jump, and no motion.
+
+    >>> stretches([np.zeros((1, 3)) + x for x in (0.0, 0.1, 0.2, 5.0, 5.1, 5.2)])
+    [(0, 3), (3, 6)]
+    """
+    steps = [
+        float(np.abs(b - a).max(initial=0.0)) if np.shape(a) == np.shape(b) else math.inf
+        for a, b in itertools.pairwise(values)
+    ]
+    found: list[tuple[int, int]] = []
+    first = 0
+    for i, step in enumerate(steps):
+        beside = [steps[k] for k in (i - 1, i + 1) if 0 <= k < len(steps) and math.isfinite(steps[k])]
+        if (
+            step == math.inf
+            or (len(beside) > 1 and step > JUMP * max(beside))
+            or (i == len(steps) - 1 and beside and step > JUMP * beside[0])
+        ):
+            found.append((first, i + 1))
+            first = i + 1
+    return [*found, (first, len(values))]

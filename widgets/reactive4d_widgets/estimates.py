@@ -103,7 +103,7 @@ def _bytes(several: list[list[Any]]) -> int:
             continue
         size += NAME * len(arrays)
         if arrays[0].dtype.kind == "f" and all(array.shape == arrays[0].shape for array in arrays):
-            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=extent(arrays)))
+            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=extent(arrays), smooth=True))
         else:
             size += sum(measured(encode([array], refs=[""])) for array in arrays)
     return size

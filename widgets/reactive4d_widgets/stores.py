@@ -78,7 +78,7 @@ def packed_group(named: Sequence[tuple[str, Array]]) -> Iterable[dict[str, Any]]
         bounds = widths[first.shape[1]] if is_coarse and first.dtype.kind == "f" else None
         for i in range(0, len(alike), several):
             part = alike[i : i + several]
-            yield encode([array for _, array in part], refs=[ref for ref, _ in part], bounds=bounds)
+            yield encode([array for _, array in part], refs=[ref for ref, _ in part], bounds=bounds, smooth=True)
 
 
 def ranges(arrays: Sequence[Array]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

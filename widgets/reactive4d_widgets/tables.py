@@ -103,7 +103,7 @@ def tabulated(
     bounds = np.array([outer.min(axis=0), outer.max(axis=0)]) if len(outer) else np.zeros((2, 3))
     size = float(np.linalg.norm(bounds[1] - bounds[0])) or 1.0
     store = Store()
-    coverer = Coverer(plan.asker, store, size)
+    coverer = Coverer(plan.asker, store, size, keys=key_times(plan.subject.scene))
     if survey is not None:
         survey(plan, coverer)
     segments: list[Segment] = []
@@ -134,7 +134,7 @@ def tabulated(
         "view": view(outer).to_json(),
         "bounds": bounds.tolist(),
         "nodes": [{"name": seat.name, "kind": seat.kind} for seat in plan.seats],
-        "values": [_value(channel, segments) for channel in plan.values],
+        "values": [_value(plan, channel) for channel in plan.values],
         "point": _point(plan, graded),
         "options": dict(options or {}),
     }
@@ -192,17 +192,8 @@ def _point(plan: Plan, graded: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     }
 
 
-def _value(channel: Channel, segments: Sequence[Segment]) -> dict[str, Any]:
+def _value(plan: Plan, channel: Channel) -> dict[str, Any]:
     """How a named value is shown: with as many digits as are worth it."""
-    name = channel.what.removeprefix("values.")
-    return {"name": name, "unit": "", "format": ".2f" if _is_number(channel.name, segments) else ""}
-
-
-def _is_number(channel: str, segments: Sequence[Segment]) -> bool:
-    for segment in segments:
-        if segment.channel == channel and segment.track is not None:
-            track = segment.track
-            if track["kind"] == "const":
-                return isinstance(track["value"], float | int | list) and not isinstance(track["value"], bool)
-            return track["kind"] != "stepped" or isinstance(track["values"][0], float | int)
-    return False
+    answer = plan.asker.ask(channel.signal, plan.span.start)
+    is_number = answer.error is not None or not isinstance(answer.value, str | bool | np.bool_)
+    return {"name": channel.what.removeprefix("values."), "unit": "", "format": ".2f" if is_number else ""}

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.model.objects import Object
 from reactive4d_widgets import lowering
 from reactive4d_widgets.channels import Channel
 from reactive4d_widgets.spans import Span
@@ -59,16 +58,10 @@ def exact(channel: Channel) -> Exact | None:
     elif channel.what == "matrix":
         track = lowering.lower_matrix(seat.object, above=seat.groups)
     elif channel.what == "color":
-        track = lowering.lower_paint(seat.object) if all(map(_is_opaque, seat.groups)) else None
+        track = lowering.lower_paint(seat.object, above=seat.groups)
     else:
         track = None if channel.source is None else lowering.lower(channel.source)
     return None if track is None else Exact(track, parameters_in(track))
-
-
-def _is_opaque(group: Object) -> bool:
-    """Whether a group takes nothing from the opacity of its members, at no time."""
-    track = lowering.lower_paint(group)
-    return track is not None and track["kind"] == "const" and track["value"][3] == 1.0
 
 
 def fitted(channel: Channel, span: Span, parameters: Mapping[str, Any], size: float) -> Cell | None:
