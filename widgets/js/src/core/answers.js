@@ -2,6 +2,9 @@
 import { list, object, own, whole } from "./checks.js";
 import { WireError } from "./errors.js";
 
+/** No message unpacks to more bytes than this. */
+const MOST_BYTES = 2 ** 31;
+
 /** @param {any} value @param {number} seq of the ask */
 export function readAnswer(value, seq) {
   const answer = object(value, "answer");
@@ -15,5 +18,14 @@ export function readAnswer(value, seq) {
 
 /** @param {any} value @param {string} path */
 export function readChunks(value, path) {
-  return list(value, path, 100_000);
+  const chunks = list(value, path, 100_000);
+  let bytes = 0;
+  for (const chunk of chunks) {
+    const refs = own(object(chunk, path), "refs");
+    const shape = own(chunk, "shape");
+    if (!Array.isArray(refs) || !Array.isArray(shape)) continue; // is refused when it is unpacked
+    bytes += 4 * refs.length * shape.slice(0, 2).reduce((size, n) => size * (Number.isInteger(n) ? n : 1), 1);
+  }
+  if (bytes > MOST_BYTES) throw new WireError(path, `expected at most ${MOST_BYTES} bytes, got ${bytes}`);
+  return chunks;
 }

@@ -22,8 +22,13 @@ export class Body {
   topology = null;
   /** @type {Paints|null} */
   paints = null;
-  /** What these were made from. @type {[any, any, any]} */
-  #of = [undefined, undefined, undefined];
+  // What these were made from; undefined where that did not fit together.
+  /** @type {Sample|Mixture|undefined} */
+  #ofPoints = undefined;
+  /** @type {TopologyRefs|null|undefined} */
+  #ofTopology = undefined;
+  /** @type {PaintRefs|null|undefined} */
+  #ofPaints = undefined;
 
   /** The arrays that it stands on. */
   get refs() {
@@ -41,8 +46,7 @@ export class Body {
    * @returns {boolean} whether all is there; raises WireError where it does not fit together
    */
   update(scope, isMesh, points, topology, paints) {
-    const [lastPoints, lastTopology, lastPaints] = this.#of;
-    if (lastPoints === points && lastTopology === topology && lastPaints === paints) return true;
+    if (this.#ofPoints === points && this.#ofTopology === topology && this.#ofPaints === paints) return true;
     const refs = [...(points instanceof Mixture ? points.samples.flatMap(ends) : ends(points)),
       ...Object.values(topology ?? {}), ...Object.values(paints ?? {})];
     const missing = refs.flatMap((ref) => (ref === null || scope.blobs.has(ref) ? [] : [ref]));
@@ -51,22 +55,28 @@ export class Body {
     for (const ref of missing) scope.wanted.add(ref);
     if (missing.length > 0) return false;
 
-    this.#of = [undefined, undefined, undefined]; // should it not fit together, it is looked at again
     const blob = (/** @type {string|null} */ ref) => (ref === null ? null : /** @type {any} */ (scope.blobs.get(ref)));
-    if (lastPoints !== points) this.points = Object.freeze(resolved(points, scope, blob));
-    if (lastTopology !== topology) {
+    const isOther = { points: this.#ofPoints !== points, topology: this.#ofTopology !== topology,
+      paints: this.#ofPaints !== paints };
+    this.#ofPoints = undefined;
+    this.#ofTopology = undefined;
+    this.#ofPaints = undefined;
+    if (isOther.points) this.points = Object.freeze(resolved(points, scope, blob));
+    if (isOther.topology) {
       this.topology = topology === null ? null : Object.freeze({
         faces: blob(topology.faces), origin: blob(topology.origin),
         edges: blob(topology.edges), lines: blob(topology.lines),
       });
     }
-    if (lastPaints !== paints) {
+    if (isOther.paints) {
       this.paints = paints === null ? null : Object.freeze({ faces: blob(paints.faces), points: blob(paints.points) });
     }
     const made = /** @type {Points} */ (this.points);
     checkTopology(made, this.topology, isMesh);
     checkPaints(made, this.topology, this.paints);
-    this.#of = [points, topology, paints];
+    this.#ofPoints = points;
+    this.#ofTopology = topology;
+    this.#ofPaints = paints;
     return true;
   }
 }

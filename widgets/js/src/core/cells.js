@@ -1,5 +1,6 @@
 /** One channel as it is looked at from frame to frame: it knows how long its value stays, and does not look before. */
 import { WireError } from "./errors.js";
+import { NEVER } from "./playables.js";
 
 /**
  * @typedef {import("./store.js").ChannelStore} ChannelStore
@@ -21,6 +22,11 @@ export function isUnmoved(names, a, b) {
 export function isSame(a, b) {
   if (a === b) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return Object.is(a, b);
+  if (a instanceof Float64Array && b instanceof Float64Array) {
+    if (a.length !== b.length) return false;
+    for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+    return true;
+  }
   if (Array.isArray(a) || a instanceof Float64Array) {
     if (Array.isArray(a) !== Array.isArray(b) || a.length !== b.length) return false;
     for (let i = 0; i < a.length; i++) if (!isSame(a[i], b[i])) return false;
@@ -45,6 +51,8 @@ export class Cell {
   reads = [];
   /** What `value` was read from. @type {any} */
   #raw = undefined;
+  /** @type {import("./store.js").Found|null} */
+  #found = null;
   #version = -1;
   #time = NaN;
   /** @type {Parameters|null} */
@@ -58,24 +66,21 @@ export class Cell {
 
   /** @param {ChannelStore} store @param {number} t @param {Parameters} parameters */
   update(store, t, parameters) {
-    if (
-      this.#version === store.version && this.#parameters !== null
-      && isUnmoved(this.reads, this.#parameters, parameters)
-      && (t === this.#time || (t >= this.since && t < this.until))
-    ) {
-      this.#parameters = parameters;
-      this.#time = t;
-      return;
-    }
-    this.#version = store.version;
+    const isLike = this.#version === store.version && this.#parameters !== null
+      && isUnmoved(this.reads, this.#parameters, parameters);
+    const last = this.#time;
     this.#parameters = parameters;
     this.#time = t;
-    this.#look(store, t, parameters);
+    if (isLike && (t === last || (t >= this.since && t < this.until))) return;
+    this.#version = store.version;
+    const found = this.#found;
+    const isFound = isLike && found !== null && t >= found.start && t < found.stop;
+    this.#look(isFound ? found : store.find(this.channel, t, parameters), t, parameters);
   }
 
-  /** @param {ChannelStore} store @param {number} t @param {Parameters} parameters */
-  #look(store, t, parameters) {
-    const found = store.find(this.channel, t, parameters);
+  /** @param {import("./store.js").Found|null} found @param {number} t @param {Parameters} parameters */
+  #look(found, t, parameters) {
+    this.#found = found;
     this.since = Infinity;
     this.until = -Infinity;
     if (found === null) {
@@ -96,9 +101,11 @@ export class Cell {
         this.state = "missing";
         return;
       }
-      const [start, stop] = found.still(t);
-      this.since = Math.max(start, found.start);
-      this.until = Math.min(stop, found.stop);
+      const still = found.still(t);
+      if (still !== NEVER) {
+        this.since = Math.max(still[0], found.start);
+        this.until = Math.min(still[1], found.stop);
+      }
       if (value !== this.#raw) {
         const read = this.read(value);
         if (!isSame(read, this.value)) this.value = read;

@@ -73,7 +73,7 @@ export function readValue(value) {
 function finites(value, count) {
   if (!(Array.isArray(value) || value instanceof Float64Array)) return refuse("value", `${count} numbers`, value);
   if (value.length !== count) throw new WireError("value", `expected ${count} numbers, got ${value.length}`);
-  for (let i = 0; i < count; i++) finite(value[i], `value[${i}]`);
+  for (let i = 0; i < count; i++) if (!Number.isFinite(value[i])) finite(value[i], `value[${i}]`);
   return value;
 }
 

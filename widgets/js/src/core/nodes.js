@@ -9,7 +9,6 @@ import { identity } from "./matrices.js";
  * @typedef {import("./types.js").NodeState} NodeState
  * @typedef {import("./types.js").Parameters} Parameters
  * @typedef {import("./types.js").Problem} Problem
- * @typedef {import("./types.js").Points} Points
  * @typedef {import("./types.js").Settings} Settings
  * @typedef {import("./store.js").ChannelStore} ChannelStore
  *
@@ -31,27 +30,33 @@ const NO_SETTINGS = Object.freeze({
   fov: null, near: null, far: null, target: null,
 });
 const SETTING = Object.keys(NO_SETTINGS);
+/** @type {readonly string[]} */
+const NONE = Object.freeze([]);
 
 export class NodeWatch {
-  /** @type {Map<string, Cell<any>>} */
+  /** All that were ever wanted. @type {Map<string, Cell<any>>} */
   #cells = new Map();
-  /** Those that are wanted now. @type {Cell<any>[]} */
-  #used = [];
+  /** Those that are wanted now, by channel. @type {Map<string, Cell<any>>} */
+  #used = new Map();
+  /** The same as a list. @type {Cell<any>[]} */
+  #list = [];
+  /** Whether all of these had values: then only they need to be looked at. */
+  #isWhole = false;
+  #body = new Body();
   /** @type {NodeState|null} */
   #state = null;
-  /** @type {Problem|null} */
-  problem = null;
   /** Whether it was looked at since the state was made. */
   #isNew = true;
+  /** @type {Problem|null} */
+  problem = null;
   #version = -1;
   #time = NaN;
   #since = Infinity;
   #until = -Infinity;
   /** @type {readonly string[]} */
-  #reads = [];
+  #reads = NONE;
   /** @type {Parameters|null} */
   #parameters = null;
-  #body = new Body();
 
   /** @param {string} name @param {string} kind */
   constructor(name, kind) {
@@ -61,7 +66,7 @@ export class NodeWatch {
 
   /** The channels that are wanted at the point that was looked at last. */
   get channels() {
-    return this.#used.map(({ channel }) => channel);
+    return this.#list.map(({ channel }) => channel);
   }
 
   /** The arrays that it stands on. */
@@ -72,28 +77,30 @@ export class NodeWatch {
   /** Look at a point; what is not there is noted in the scope.
    * @param {Scope} scope @param {number} t @param {Parameters} parameters @returns {boolean} whether it is complete */
   update(scope, t, parameters) {
-    const { store } = scope;
     if (
-      this.#version === store.version && this.#parameters !== null
+      this.#version === scope.store.version && this.#parameters !== null
       && (t === this.#time || (t >= this.#since && t < this.#until))
       && isUnmoved(this.#reads, this.#parameters, parameters)
     ) {
       return true;
     }
     this.#version = -1;
-    if (!this.#gather(scope, t, parameters)) return false;
-    this.#version = store.version;
+    this.#isNew = true;
+    if (!(this.#isWhole && this.#follow(scope, t, parameters)) && !this.#gather(scope, t, parameters)) return false;
+    this.#version = scope.store.version;
     this.#time = t;
     this.#parameters = parameters;
     this.#since = -Infinity;
     this.#until = Infinity;
-    for (const cell of this.#used) {
+    let reads = NONE;
+    for (const cell of this.#list) {
       if (cell.since > this.#since) this.#since = cell.since;
       if (cell.until < this.#until) this.#until = cell.until;
+      if (cell.reads.length > 0 && cell.reads !== reads) {
+        reads = reads.length === 0 ? cell.reads : [...new Set([...reads, ...cell.reads])];
+      }
     }
-    this.#reads = this.#used.every(({ reads }) => reads.length === 0)
-      ? this.#used[0].reads
-      : [...new Set(this.#used.flatMap(({ reads }) => reads))];
+    this.#reads = reads;
     return true;
   }
 
@@ -106,14 +113,35 @@ export class NodeWatch {
     return this.#state;
   }
 
-  /** @param {Scope} scope @param {number} t @param {Parameters} parameters */
+  /** Look at what was wanted last; answers whether the same is wanted now, and all of it there.
+   * @param {Scope} scope @param {number} t @param {Parameters} parameters */
+  #follow(scope, t, parameters) {
+    const [visible, drawn] = this.#list;
+    const kind = drawn?.value;
+    for (const cell of this.#list) {
+      cell.update(scope.store, t, parameters);
+      if (cell.state !== "value") return false;
+    }
+    if (visible.value !== (drawn !== undefined) || kind !== drawn?.value) return false;
+    return this.#resolves(scope);
+  }
+
+  /** Find out what is wanted, and look at it. @param {Scope} scope @param {number} t @param {Parameters} parameters */
   #gather(scope, t, parameters) {
-    this.#used = [];
+    this.#used = new Map();
+    this.#isWhole = false;
     this.problem = null;
-    this.#isNew = true;
+    const isComplete = this.#look(scope, t, parameters);
+    this.#list = [...this.#used.values()];
+    this.#isWhole = isComplete && this.problem === null;
+    return isComplete;
+  }
+
+  /** @param {Scope} scope @param {number} t @param {Parameters} parameters */
+  #look(scope, t, parameters) {
     const before = scope.missing.length;
     const visible = this.#cell("visible", scope, t, parameters);
-    if (visible.state === "missing" && !scope.isRefused(visible.channel)) this.#cell("drawn", scope, t, parameters);
+    if (scope.missing.length > before) this.#cell("drawn", scope, t, parameters); // likely to be wanted
     if (scope.missing.length > before) return false;
     if (this.#fails(visible) || !visible.value) return true;
     const drawn = this.#cell("drawn", scope, t, parameters);
@@ -123,14 +151,8 @@ export class NodeWatch {
       this.#cell(channel, scope, t, parameters);
     }
     if (scope.missing.length > before) return false;
-    if (this.#used.some((cell) => this.#fails(cell))) return true;
-    try {
-      return this.#resolve(scope);
-    } catch (error) {
-      if (!(error instanceof WireError)) throw error;
-      this.problem = Object.freeze({ channel: `${this.name}#${error.path}`, text: error.message });
-      return true;
-    }
+    for (const cell of this.#used.values()) if (this.#fails(cell)) return true;
+    return this.#resolves(scope);
   }
 
   /** @param {string} channel @param {Scope} scope @param {number} t @param {Parameters} parameters */
@@ -141,7 +163,7 @@ export class NodeWatch {
       this.#cells.set(channel, cell);
     }
     cell.update(scope.store, t, parameters);
-    this.#used.push(cell);
+    this.#used.set(channel, cell);
     if (cell.state === "missing" && !scope.isRefused(cell.channel)) scope.missing.push(cell.channel);
     return cell;
   }
@@ -155,54 +177,57 @@ export class NodeWatch {
   }
 
   /** The arrays behind the references. @param {Scope} scope @returns {boolean} whether they are all there */
-  #resolve(scope) {
-    const points = this.#value("points");
+  #resolves(scope) {
+    const points = this.#used.get("points");
     if (points === undefined) return true;
-    const isMesh = this.#value("drawn") === "mesh";
-    return this.#body.update(scope, isMesh, points, this.#value("topology") ?? null, this.#value("paints") ?? null);
-  }
-
-  /** The value of a channel, if it is wanted now. @param {string} channel */
-  #value(channel) {
-    const cell = this.#cells.get(channel);
-    return cell !== undefined && this.#used.includes(cell) ? cell.value : undefined;
+    const isMesh = this.#used.get("drawn")?.value === "mesh";
+    const topology = this.#used.get("topology")?.value ?? null;
+    const paints = this.#used.get("paints")?.value ?? null;
+    try {
+      return this.#body.update(scope, isMesh, points.value, topology, paints);
+    } catch (error) {
+      if (!(error instanceof WireError)) throw error;
+      this.problem = Object.freeze({ channel: `${this.name}#${error.path}`, text: error.message });
+      this.#isWhole = false;
+      return true;
+    }
   }
 
   /** @returns {NodeState} */
   #build() {
     const { name, kind } = this;
-    const value = (/** @type {string} */ channel) => this.#value(channel);
-    const isThere = this.problem === null && value("visible") === true;
-    const drawn = isThere ? value("drawn") : "none";
-    const has = (/** @type {string} */ channel) => WANTED[/** @type {NodeState["drawn"]} */ (drawn)].includes(channel);
+    const used = this.#used;
+    const visible = this.problem === null && used.get("visible")?.value === true;
+    const drawn = /** @type {NodeState["drawn"]} */ (visible ? used.get("drawn")?.value : "none");
+    const isThere = drawn !== "none";
+    const has = (/** @type {string} */ channel) => isThere && used.has(channel);
     return {
       name,
       kind,
       drawn,
-      visible: isThere,
-      color: has("color") ? value("color") : WHITE,
-      matrix: has("matrix") ? value("matrix") : IDENTITY,
+      visible,
+      color: has("color") ? used.get("color")?.value : WHITE,
+      matrix: isThere ? used.get("matrix")?.value : IDENTITY,
       points: has("points") ? this.#body.points : null,
       topology: has("topology") ? this.#body.topology : null,
       paints: has("paints") ? this.#body.paints : null,
-      settings: drawn === "label" || drawn === "light" || drawn === "camera" ? settings(value) : NO_SETTINGS,
+      settings: drawn === "label" || drawn === "light" || drawn === "camera" ? this.#settings() : NO_SETTINGS,
     };
+  }
+
+  /** @returns {Settings} the last ones if they are the same */
+  #settings() {
+    const next = /** @type {any} */ ({});
+    for (const channel of SETTING) next[channel] = this.#used.get(channel)?.value ?? null;
+    const last = this.#state?.settings;
+    return last !== undefined && isSame(last, next) ? last : Object.freeze(next);
   }
 }
 
-/** @param {(channel: string) => any} value @returns {Settings} */
-function settings(value) {
-  return Object.freeze(/** @type {any} */ (Object.fromEntries(SETTING.map((one) => [one, value(one) ?? null]))));
-}
-
-/** @param {NodeState} a @param {NodeState} b */
+/** Whether two states are the same: what is equal in them is the same object. @param {NodeState} a
+ * @param {NodeState} b */
 function isAlike(a, b) {
-  return a.drawn === b.drawn && a.visible === b.visible && isSame(a.color, b.color) && isSame(a.matrix, b.matrix)
-    && a.topology === b.topology && a.paints === b.paints && isAlikePoints(a.points, b.points)
-    && (a.settings === b.settings || isSame(a.settings, b.settings));
-}
-
-/** @param {Points|null} a @param {Points|null} b */
-function isAlikePoints(a, b) {
-  return a === b || (a !== null && b !== null && a.a === b.a && a.b === b.b && a.mix === b.mix);
+  return a.drawn === b.drawn && a.visible === b.visible && a.color === b.color && a.matrix === b.matrix
+    && a.topology === b.topology && a.paints === b.paints && a.settings === b.settings
+    && (a.points === b.points || isSame(a.points, b.points));
 }

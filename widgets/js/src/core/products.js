@@ -1,6 +1,6 @@
 /** `product`: a matrix from its factors, of which each later one multiplies from the left. */
 import { list, object, oneOf, own, refuse } from "./checks.js";
-import { about, identity, linear, looking, multiply, nearestTurn, orienting, placed, times, transposed, turning }
+import { about, blank, identity, linear, looking, multiply, nearestTurn, orienting, placed, times, transposed, turning }
   from "./matrices.js";
 import { isSteady, playable, readBy, together } from "./playables.js";
 import { compile } from "./tracks.js";
@@ -9,7 +9,8 @@ import { compile } from "./tracks.js";
  * @typedef {import("./playables.js").Playable} Playable
  * @typedef {import("./types.js").Parameters} Parameters
  * @typedef {import("./matrices.js").Matrix} Matrix
- * @typedef {(t: number, parameters: Parameters, before: Matrix) => Matrix} Rule
+ * @typedef {(t: number, parameters: Parameters, before: Matrix, out?: Matrix) => Matrix} Rule puts it into `out`, or
+ *   answers a matrix that never changes
  * @typedef {{rule: Rule, tracks: Playable[], takesBefore: boolean}} Factor
  * @typedef {(name: string, otherwise?: any) => Playable} Part
  */
@@ -21,9 +22,16 @@ export function product(track, path, budget) {
   const factors = given.map((factor, i) => factorOf(factor, `${path}.factors[${i}]`, budget));
   const tracks = factors.flatMap((factor) => factor.tracks);
   const rules = folded(factors);
+  const last = rules.length - 1;
+  // Only the product is a new matrix; nobody sees the others.
+  const [even, odd, scratch] = [blank(), blank(), blank()];
   const play = (/** @type {number} */ t, /** @type {Parameters} */ parameters) => {
-    let matrix = rules.length > 0 ? rules[0](t, parameters, IDENTITY) : IDENTITY;
-    for (let i = 1; i < rules.length; i++) matrix = multiply(rules[i](t, parameters, matrix), matrix);
+    if (last < 1) return last < 0 ? IDENTITY : rules[0](t, parameters, IDENTITY);
+    let matrix = rules[0](t, parameters, IDENTITY, even);
+    for (let i = 1; i <= last; i++) {
+      const factor = rules[i](t, parameters, matrix, scratch);
+      matrix = multiply(factor, matrix, i === last ? blank() : i % 2 ? odd : even);
+    }
     return matrix;
   };
   return playable(play, together(tracks), readBy(tracks));
@@ -98,29 +106,30 @@ const FACTORS = new Map(
   /** @type {[string, (part: Part, factor: Record<string, any>, path: string) => Rule][]} */ ([
     ["translate", (part) => {
       const offset = part("offset");
-      return (t, p) => {
+      return (t, p, _, out) => {
         const v = numbers(offset(t, p), 3);
-        return placed(UPRIGHT, v[0], v[1], v[2]);
+        return placed(UPRIGHT, v[0], v[1], v[2], out);
       };
     }],
     ["rotate", (part) => {
       const [angle, axis, center] = [part("angle"), part("axis"), part("center", ORIGIN)];
-      return (t, p) => {
+      return (t, p, _, out) => {
         const turn = turning((number(angle(t, p)) * Math.PI) / 180, numbers(axis(t, p), 3));
-        return about(turn, numbers(center(t, p), 3));
+        return about(turn, numbers(center(t, p), 3), out);
       };
     }],
     ["orient", (part) => {
       const [rotation, center] = [part("rotation"), part("center", ORIGIN)];
-      return (t, p) => about(orienting(numbers(rotation(t, p), 4)), numbers(center(t, p), 3));
+      return (t, p, _, out) => about(orienting(numbers(rotation(t, p), 4)), numbers(center(t, p), 3), out);
     }],
     ["scale", (part) => {
       const [factor, center] = [part("factor"), part("center", ORIGIN)];
-      return (t, p) => {
+      return (t, p, _, out) => {
         const value = factor(t, p);
         const f = typeof value === "number" ? [value, value, value] : numbers(value, 3);
         const c = numbers(center(t, p), 3);
-        return placed([f[0], 0, 0, 0, f[1], 0, 0, 0, f[2]], c[0] - f[0] * c[0], c[1] - f[1] * c[1], c[2] - f[2] * c[2]);
+        const [x, y, z] = [c[0] - f[0] * c[0], c[1] - f[1] * c[1], c[2] - f[2] * c[2]];
+        return placed([f[0], 0, 0, 0, f[1], 0, 0, 0, f[2]], x, y, z, out);
       };
     }],
     ["matrix", (part) => {
@@ -133,30 +142,30 @@ const FACTORS = new Map(
     ["trs", (part) => {
       const [translation, rotation] = [part("translation"), part("rotation")];
       const stretch = part("stretch", UNSTRETCHED);
-      return (t, p) => {
+      return (t, p, _, out) => {
         const v = numbers(translation(t, p), 3);
         const s = numbers(stretch(t, p), 6);
         const turn = orienting(numbers(rotation(t, p), 4));
         const map = s === UNSTRETCHED ? turn : times(turn, [s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5]]);
-        return placed(map, v[0], v[1], v[2]);
+        return placed(map, v[0], v[1], v[2], out);
       };
     }],
     ["look", (part, factor, path) => {
       const [eye, target, up] = [part("eye"), part("target"), part("up")];
       const forward = oneOf(own(factor, "forward") ?? "-z", `${path}.forward`, FORWARD);
-      return (t, p) => {
+      return (t, p, _, out) => {
         const from = numbers(eye(t, p), 3);
         const turn = looking(from, numbers(target(t, p), 3), numbers(up(t, p), 3), forward);
-        return placed(turn, from[0], from[1], from[2]);
+        return placed(turn, from[0], from[1], from[2], out);
       };
     }],
     ["aim", (part, factor, path) => {
       const [target, up] = [part("target"), part("up")];
       const forward = oneOf(own(factor, "forward") ?? "-z", `${path}.forward`, FORWARD);
-      return (t, p, before) => {
+      return (t, p, before, out) => {
         const position = [before[3], before[7], before[11]];
         const look = looking(position, numbers(target(t, p), 3), numbers(up(t, p), 3), forward);
-        return about(times(look, transposed(nearestTurn(linear(before)))), position);
+        return about(times(look, transposed(nearestTurn(linear(before)))), position, out);
       };
     }],
   ]),

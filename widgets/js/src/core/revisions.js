@@ -3,11 +3,12 @@ import { subtract } from "./intervals.js";
 
 /** @typedef {import("./types.js").Interval} Interval */
 
-const MOST = 20_000; // cuts that are remembered; answers older than the oldest of them are not believed
+const MOST = 20_000; // cuts that are remembered; beyond, no answer of an older revision is believed
 
 export class Revisions {
-  /** @type {{revision: number, channel: string, when: Interval}[]} */
-  #cuts = [];
+  /** By channel. @type {Map<string, {revision: number, when: Interval}[]>} */
+  #cuts = new Map();
+  #count = 0;
   /** Cuts of later revisions than this one are all known. */
   #since;
 
@@ -20,16 +21,24 @@ export class Revisions {
   /** @param {number} revision @param {{channel: string, when: Interval}[]} spans */
   cut(revision, spans) {
     this.current = Math.max(this.current, revision);
-    for (const { channel, when } of spans) this.#cuts.push({ revision, channel, when });
-    const surplus = this.#cuts.length - MOST;
-    if (surplus > 0) for (const old of this.#cuts.splice(0, surplus)) this.#since = Math.max(this.#since, old.revision);
+    this.#count += spans.length;
+    if (this.#count > MOST) {
+      this.leap(this.current);
+      return;
+    }
+    for (const { channel, when } of spans) {
+      const known = this.#cuts.get(channel);
+      if (known === undefined) this.#cuts.set(channel, [{ revision, when }]);
+      else known.push({ revision, when });
+    }
   }
 
   /** To a revision of which nobody said what it changed. @param {number} revision */
   leap(revision) {
     this.current = revision;
     this.#since = revision;
-    this.#cuts = [];
+    this.#cuts = new Map();
+    this.#count = 0;
   }
 
   /** Whether it is known what changed since a revision. @param {number} revision */
@@ -40,7 +49,7 @@ export class Revisions {
   /** What of an answer of that revision still holds.
    * @param {number} revision @param {{channel: string, start: number, stop: number}} segment @returns {Interval[]} */
   left(revision, { channel, start, stop }) {
-    const cuts = this.#cuts.filter((cut) => cut.revision > revision && cut.channel === channel);
+    const cuts = (this.#cuts.get(channel) ?? []).filter((cut) => cut.revision > revision);
     return subtract([[start, stop]], cuts.map(({ when }) => when));
   }
 }

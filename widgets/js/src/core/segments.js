@@ -1,5 +1,5 @@
 /** A segment: what a channel is over an interval of time, for the parameter values that were read. */
-import { interval, list, name, object, own, text } from "./checks.js";
+import { interval, list, MOST, name, object, own, text } from "./checks.js";
 import { WireError } from "./errors.js";
 import { always, NOTHING, playable } from "./playables.js";
 import { compile } from "./tracks.js";
@@ -84,13 +84,13 @@ export function plain(value, path) {
   throw new WireError(path, "expected a number, a truth value, a text or a list of numbers");
 }
 
-/** @param {any} value @returns {number} */
-function weigh(value) {
+/** About how many bytes. @param {any} value @param {number} [depth] @returns {number} */
+function weigh(value, depth = 2 * MOST.depth) {
   if (typeof value === "string") return 2 * value.length;
-  if (typeof value !== "object" || value === null) return 8;
+  if (typeof value !== "object" || value === null || depth === 0) return 8;
   if (Array.isArray(value) && typeof value[0] === "number") return 8 * value.length;
   let weight = 40;
-  for (const part of Object.values(value)) weight += weigh(part);
+  for (const part of Object.values(value)) weight += weigh(part, depth - 1);
   return weight;
 }
 

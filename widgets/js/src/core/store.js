@@ -6,12 +6,14 @@
  * by the segments round it together; otherwise not at all.
  */
 import { interval, list, name } from "./checks.js";
+import { WireError } from "./errors.js";
 import { intersect, subtract, union } from "./intervals.js";
 import { mixed } from "./mixing.js";
 import { bisect } from "./numbers.js";
 import { FOREVER, NEVER } from "./playables.js";
-import { canonical, clipped, keyOf, readSegment } from "./segments.js";
-import { at, insert, remove } from "./tables.js";
+import { clipped, keyOf, readSegment } from "./segments.js";
+import { Shelf } from "./shelves.js";
+import { at, merge, remove } from "./tables.js";
 
 /**
  * @typedef {import("./segments.js").Segment} Segment
@@ -27,12 +29,11 @@ import { at, insert, remove } from "./tables.js";
  * @property {(t: number, parameters: Parameters) => any} play undefined where there is nothing between the stops
  * @property {(t: number) => Interval} still
  *
- * @typedef {{names: readonly string[], blend: readonly string[], tables: Map<string, Segment[]>}} Shelf
- *
  * @typedef {{state: "value", value: any, when: Interval, where: Readonly<Record<string, any>>}
  *   | {state: "missing"} | {state: "error", text: string}} Look
  */
 
+const MOST_SHELVES = 256; // of one channel: each look tries them all
 /** @type {Look} */
 const MISSING = Object.freeze({ state: "missing" });
 
@@ -41,7 +42,7 @@ export class ChannelStore {
   version = 0;
   #order = 0;
   #weight = 0;
-  /** @type {Map<string, Map<string, Shelf>>} */
+  /** @type {Map<string, Shelf[]>} */
   #channels = new Map();
   /** @type {WeakMap<Segment, Found>} */
   #founds = new WeakMap();
@@ -72,10 +73,18 @@ export class ChannelStore {
    * @param {(segment: Segment) => Interval[]} [still] the parts of a segment that still hold */
   put(segments, revision = 0, path = "segments", still = undefined) {
     const made = list(segments, path).map((one, i) => readSegment(one, `${path}[${i}]`, revision, this.#order + i));
-    for (const segment of made) {
-      if (still === undefined) this.#insert(segment);
-      else for (const [start, stop] of still(segment)) this.#insert(clipped(segment, start, stop));
+    const holding = still === undefined ? made : made.flatMap((segment) => (
+      still(segment).map(([start, stop]) => clipped(segment, start, stop))
+    ));
+    /** @type {Map<Segment[], Segment[]>} */
+    const byTable = new Map();
+    for (const segment of holding) {
+      const table = this.#table(segment, path);
+      const others = byTable.get(table);
+      if (others === undefined) byTable.set(table, [segment]);
+      else others.push(segment);
     }
+    for (const [table, segments_] of byTable) this.#weight += merge(table, segments_);
     this.#order += made.length;
     if (made.length > 0) this.version++;
     if (this.#weight > this.budget) this.#evict();
@@ -90,13 +99,13 @@ export class ChannelStore {
       return { channel: name(channel, `${path}[${i}][0]`), when: interval([start, stop], `${path}[${i}]`) };
     });
     for (const { channel, when } of read) {
-      for (const shelf of this.#channels.get(channel)?.values() ?? []) {
-        for (const table of shelf.tables.values()) {
+      for (const shelf of this.#channels.get(channel) ?? []) {
+        for (const table of shelf.tables) {
           this.#weight += remove(table, when[0], when[1], (segment) => segment.revision < revision);
         }
       }
-      this.#cut = union([...this.#cut, when]);
     }
+    this.#cut = union([...this.#cut, ...read.map(({ when }) => when)]);
     this.version++;
     return read;
   }
@@ -134,11 +143,11 @@ export class ChannelStore {
   find(channel, t, parameters) {
     const shelves = this.#channels.get(channel);
     if (shelves === undefined) return null;
-    for (const shelf of shelves.values()) {
-      const segment = at(shelf.tables.get(keyOf(shelf.names, parameters)), t);
+    for (const shelf of shelves) {
+      const segment = at(shelf.get(keyOf(shelf.names, parameters)), t);
       if (segment !== null) return this.#found(segment);
     }
-    for (const shelf of shelves.values()) {
+    for (const shelf of shelves) {
       const blended = shelf.blend.length === 0 ? null : this.#blend(shelf, t, parameters);
       if (blended !== null) return blended;
     }
@@ -150,14 +159,14 @@ export class ChannelStore {
   gaps(channel, when, parameters) {
     /** @type {Interval[]} */
     let left = [when];
-    for (const shelf of this.#channels.get(channel)?.values() ?? []) {
-      const own = at(shelf.tables.get(keyOf(shelf.names, parameters)), when[0]);
+    for (const shelf of this.#channels.get(channel) ?? []) {
+      const own = at(shelf.get(keyOf(shelf.names, parameters)), when[0]);
       if (own !== null && own.stop >= when[1]) return [];
       const keys = [[keyOf(shelf.names, parameters)], this.#corners(shelf, parameters).map(({ key }) => key)];
       for (const corners of keys) {
         if (left.length === 0) return left;
         if (corners.length === 0) continue;
-        const held = corners.map((key) => (shelf.tables.get(key) ?? []).map((one) => (
+        const held = corners.map((key) => (shelf.get(key) ?? []).map((one) => (
           /** @type {Interval} */ ([one.start, one.stop])
         )));
         left = subtract(left, held.reduce((a, b) => intersect(a, b), [FOREVER]));
@@ -193,7 +202,7 @@ export class ChannelStore {
     const corners = this.#corners(shelf, parameters);
     const parts = [];
     for (const { key, weight } of corners) {
-      const segment = at(shelf.tables.get(key), t);
+      const segment = at(shelf.get(key), t);
       if (segment === null || !shelf.blend.every((one) => segment.blend.includes(one))) return null;
       parts.push({ segment, weight });
     }
@@ -236,40 +245,30 @@ export class ChannelStore {
     return corners.map(({ values, weight }) => ({ key: keyOf(shelf.names, values), weight }));
   }
 
-  /** @param {Segment} segment */
-  #insert(segment) {
+  /** Where a segment belongs. @param {Segment} segment @param {string} path */
+  #table(segment, path) {
     let shelves = this.#channels.get(segment.channel);
-    if (shelves === undefined) this.#channels.set(segment.channel, (shelves = new Map()));
-    const id = canonical(segment.names);
-    let shelf = shelves.get(id);
+    if (shelves === undefined) this.#channels.set(segment.channel, (shelves = []));
+    let shelf = shelves.find((one) => one.isOf(segment.names));
     if (shelf === undefined) {
-      shelves.set(id, (shelf = { names: segment.names, blend: segment.blend, tables: new Map() }));
+      if (shelves.length >= MOST_SHELVES) throw new WireError(path, `expected at most ${MOST_SHELVES} sets of names`);
+      shelves.push((shelf = new Shelf(segment.names)));
     }
     if (segment.blend.length > shelf.blend.length) shelf.blend = segment.blend;
-    let table = shelf.tables.get(segment.key);
-    if (table === undefined) shelf.tables.set(segment.key, (table = []));
-    this.#weight += remove(table, segment.start, segment.stop, () => true) + insert(table, segment);
+    return shelf.at(segment.key);
   }
 
   /** The oldest go, until a quarter is free. */
   #evict() {
-    const all = [...this.#channels.values()].flatMap((shelves) => [...shelves.values()])
-      .flatMap((shelf) => [...shelf.tables.values()]).flat().sort((a, b) => a.order - b.order);
+    const shelves = [...this.#channels.values()].flat();
+    const all = shelves.flatMap((shelf) => [...shelf.tables].flat()).sort((a, b) => a.order - b.order);
     const gone = new Set();
     for (const segment of all) {
       if (this.#weight <= 0.75 * this.budget) break;
       gone.add(segment);
       this.#weight -= segment.weight;
     }
-    for (const shelves of this.#channels.values()) {
-      for (const shelf of shelves.values()) {
-        for (const [key, table] of shelf.tables) {
-          const left = table.filter((segment) => !gone.has(segment));
-          if (left.length === 0) shelf.tables.delete(key);
-          else shelf.tables.set(key, left);
-        }
-      }
-    }
+    for (const shelf of shelves) shelf.drop(gone);
   }
 }
 

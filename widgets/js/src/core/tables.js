@@ -17,6 +17,41 @@ export function insert(table, segment) {
   return segment.weight;
 }
 
+/** Put many segments into a table at once, in place of what was there.
+ * @param {Segment[]} table @param {readonly Segment[]} segments in any order
+ * @returns {number} by how much the weight grew */
+export function merge(table, segments) {
+  let weight = 0;
+  /** @type {Segment[]} */
+  const fresh = [];
+  for (const segment of [...segments].sort((a, b) => a.start - b.start)) {
+    weight += remove(fresh, segment.start, segment.stop, () => true) + insert(fresh, segment);
+  }
+  /** @type {Segment[]} */
+  const merged = [];
+  let next = 0;
+  for (const old of table) {
+    let { start } = old;
+    weight -= old.weight;
+    const keep = (/** @type {number} */ stop) => {
+      if (!(start < stop)) return;
+      merged.push(start === old.start && stop === old.stop ? old : clipped(old, start, stop));
+      weight += old.weight;
+    };
+    for (; next < fresh.length && fresh[next].start < old.stop; next++) {
+      keep(Math.min(fresh[next].start, old.stop));
+      start = Math.max(start, fresh[next].stop);
+      if (fresh[next].stop > old.stop) break; // it may reach into the next one too
+      merged.push(fresh[next]);
+    }
+    keep(old.stop);
+  }
+  table.length = 0;
+  for (const segment of merged) table.push(segment);
+  for (; next < fresh.length; next++) table.push(fresh[next]);
+  return weight;
+}
+
 /** Take the chosen segments out of an interval; those that reach beyond it are clipped, or split.
  * @param {Segment[]} table @param {number} start @param {number} stop @param {(segment: Segment) => boolean} chosen
  * @returns {number} by how much the weight grew, mostly negative */

@@ -4,7 +4,7 @@
  * A channel is answered with all its segments that match the parameters, at all times, so it is asked once for each
  * combination of stops; its arrays are sent along. Where the page holds nothing, it says so, as an error.
  */
-import { interval, list, name, object, own } from "../core/checks.js";
+import { interval, list, MOST, name, object, own } from "../core/checks.js";
 import { canonical } from "../core/segments.js";
 
 /**
@@ -143,11 +143,11 @@ function nothing(channel, all, matching, time, parameters) {
 
 const REF = /^[0-9a-f]{32}$/;
 
-/** All references in a track. @param {any} value @param {Set<string>} into */
-function collectRefs(value, into) {
+/** All references in a track. @param {any} value @param {Set<string>} into @param {number} [depth] */
+function collectRefs(value, into, depth = 2 * MOST.depth) {
   if (typeof value === "string") {
     if (REF.test(value)) into.add(value);
-  } else if (typeof value === "object" && value !== null && typeof value[0] !== "number") {
-    for (const part of Object.values(value)) collectRefs(part, into);
+  } else if (typeof value === "object" && value !== null && typeof value[0] !== "number" && depth > 0) {
+    for (const part of Object.values(value)) collectRefs(part, into, depth - 1);
   }
 }

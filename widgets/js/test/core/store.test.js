@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ChannelStore } from "../../src/core/store.js";
+import { randoms } from "./mutations.mjs";
 
 /** @param {any} x */
 const constant = (x) => ({ kind: "const", value: x });
@@ -69,6 +70,24 @@ test("a cut leaves what is of its revision or later", () => {
   store.put([segment(5, 9, constant("new"))], 2);
   store.cut([["box#x", null, null]], 2);
   assert.deepEqual([value(store, 1), value(store, 6)], ["missing", "new"]);
+});
+
+test("many answers at once come to the same as one after the other", () => {
+  const random = randoms(5);
+  for (let round = 0; round < 200; round++) {
+    const [together, apart] = [new ChannelStore(), new ChannelStore()];
+    for (let k = 0; k < 4; k++) {
+      const starts = new Set(Array.from({ length: 6 }, () => Math.floor(random() * 30)));
+      const batch = [...starts].sort((a, b) => a - b).map((t, i) => (
+        segment(t, random() < 0.05 ? null : t + 1 + Math.floor(random() * 6), constant(`${k} ${i}`))
+      ));
+      together.put([...batch].sort(() => random() - 0.5));
+      for (const one of batch) apart.put([one]);
+    }
+    const [a, b] = [together, apart].map((store) => Array.from({ length: 90 }, (_, i) => value(store, i / 2)));
+    assert.deepEqual(a, b, `round ${round}`);
+    assert.equal(together.weight, apart.weight);
+  }
 });
 
 test("an error is an answer", () => {
