@@ -1,5 +1,6 @@
 """Plans: what is to be asked for a page: the channels of all nodes, over which time, for which values of parameters."""
 
+import math
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
@@ -122,10 +123,16 @@ def _values(control: Control, given: Any) -> list[Any]:
         value = value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else value
         if isinstance(value, ARRAY):
             value = tuple(value.tolist())
-        wire = control.encode(value)
+        wire = control.encode(_plain(value) if isinstance(value, float) else value)
         kept[repr(wire)] = control.decode(wire)
     values = list(kept.values())
     return sorted(values) if control.kind in ("number", "integer") else values
+
+
+def _plain(number: float) -> float:
+    """0.3 for 0.30000000000000004: what evenly spaced values are meant to be."""
+    rounded = float(f"{number:.12g}")
+    return rounded if abs(rounded - number) <= 4.0 * math.ulp(number) else number
 
 
 def _is_several(control: Control, given: Any) -> bool:
