@@ -120,9 +120,11 @@ class Illustration(param.Parameterized):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        for name, value in vars(cls).items():
-            if isinstance(value, param.Parameter):
-                _refuse_taken(cls, name)
+        for base in cls.__mro__:
+            if base is not Illustration and not issubclass(Illustration, base):
+                for name, value in vars(base).items():
+                    if isinstance(value, param.Parameter):
+                        _refuse_taken(cls, name)
         own = vars(cls).get("times")
         if own is not None and not isinstance(own, property):
             type.__setattr__(cls, "times", as_times(own, f"{cls.__name__}.times"))

@@ -230,6 +230,27 @@ def test_a_parameter_cannot_have_a_name_that_means_something(name: str):
         type("Bad", (r4.Illustration,), {name: param.Number(1.0)})
 
 
+def test_parameters_may_come_from_elsewhere():
+    """A class of param's that is mixed in adds its own; one with a name that is taken is refused."""
+
+    class Sized(param.Parameterized):
+        size = param.Number(2.0)
+
+    class Scened(param.Parameterized):
+        scene = param.Number(2.0)
+
+    class Mixed(Sized, r4.Illustration):
+        turn = param.Number(0.0)
+
+        def build(self) -> r4.Scene:
+            return r4.Scene(ball=r4.Sphere(self.signals.size))
+
+    assert {*Mixed.signals} == {"size", "turn"}
+    assert Mixed(size=3.0).at(0.0)["ball"].drawn.points.max() == 3.0
+    with pytest.raises(r4.ParameterError, match=r"Bad.scene cannot be a parameter"):
+        type("Bad", (Scened, r4.Illustration), {})
+
+
 @pytest.mark.parametrize(
     ("objects", "says"),
     [
