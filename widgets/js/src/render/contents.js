@@ -19,6 +19,8 @@ import { along, carry, determinant, distance, length, subtract } from "./vectors
 
 /** CSS pixels from a line or a point at which it is still met. */
 const REACH = 7;
+/** So many clear things are drawn one by one. */
+const CROWD = 64;
 const ASIDE = [3.7e-5, 6.1e-5, 7.3e-5];
 
 /** The things of one figure. */
@@ -46,6 +48,8 @@ export class Contents {
   #batches;
   /** @type {{center: number[], radius: number}|null} */
   #ball = null;
+  /** whether there are too many clear things to draw each on its own */
+  #crowded = false;
 
   /**
    * @param {Materials} materials
@@ -77,7 +81,7 @@ export class Contents {
         write: (batch, slot, state) => batch.write(slot, state),
         resize: (batch, count) => batch.resize(count),
       },
-      (state) => `${isClear(state) ? "clear" : "solid"}${determinant(state.matrix) < 0 ? "-" : "+"}`,
+      (state) => this.#classOf(state),
     );
   }
 
@@ -133,7 +137,7 @@ export class Contents {
     }
     for (const [name, state] of this.#drawn) if (!nodes.has(name)) this.#hide(name, state, gone);
     if (meshes.length > 0 || gone.length > 0) {
-      this.#batches.update(meshes, gone);
+      this.#batches.update(this.#crowd(meshes), gone);
       this.moved = true;
       if (this.#highlight !== null || this.#hover !== null) this.#outline();
     }
@@ -234,6 +238,29 @@ export class Contents {
     return name === this.#hover || name === this.#highlight || name.startsWith(`${this.#highlight}/`);
   }
 
+  /**
+   * The class of a mesh: what is of one class and one mesh is one batch. Clear things are drawn one by one, from the
+   * farthest to the nearest, unless there are very many.
+   * @param {NodeState} state
+   */
+  #classOf(state) {
+    const side = determinant(state.matrix) < 0 ? "-" : "+";
+    if (!isClear(state)) return `solid${side}`;
+    return this.#crowded ? `clear${side}` : `clear ${state.name}${side}`;
+  }
+
+  /**
+   * The meshes that changed; and all the clear ones, if they became many or few.
+   * @param {NodeState[]} changed
+   */
+  #crowd(changed) {
+    const clear = [...this.#drawn.values()].filter((state) => state.drawn === "mesh" && isClear(state));
+    const crowded = clear.length > CROWD;
+    if (crowded === this.#crowded) return changed;
+    this.#crowded = crowded;
+    return new Set([...changed, ...clear]);
+  }
+
   #outline() {
     for (const { names, content } of this.#batches) content.outline(names.some((name) => this.#marked(name)));
   }
@@ -288,12 +315,15 @@ export class Contents {
     const high = [-Infinity, -Infinity, -Infinity];
     /** @type {(box: readonly number[], matrix: Float64Array) => void} */
     const include = (box, matrix) => {
-      const half = [0, 1, 2].map((k) => (box[k + 3] - box[k]) / 2);
-      const center = carry(matrix, [box[0] + half[0], box[1] + half[1], box[2] + half[2]]);
       for (let k = 0; k < 3; k += 1) {
-        const reach = [0, 1, 2].reduce((sum, j) => sum + Math.abs(matrix[4 * k + j]) * half[j], 0);
-        low[k] = Math.min(low[k], center[k] - reach);
-        high[k] = Math.max(high[k], center[k] + reach);
+        let center = matrix[4 * k + 3];
+        let reach = 0;
+        for (let j = 0; j < 3; j += 1) {
+          center += (matrix[4 * k + j] * (box[j] + box[j + 3])) / 2;
+          reach += (Math.abs(matrix[4 * k + j]) * (box[j + 3] - box[j])) / 2;
+        }
+        low[k] = Math.min(low[k], center - reach);
+        high[k] = Math.max(high[k], center + reach);
       }
     };
     for (const { state, shape } of this.#batches.places.values()) include(shape.content.surface.box, state.matrix);

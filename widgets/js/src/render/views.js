@@ -21,6 +21,8 @@ import { THEMES } from "./themes.js";
 const FINE = 2;
 const FINE_DENSE = 1.5;
 const MOST_PIXELS = 6e6;
+/** Milliseconds after which one looks again what moves under a pointer that rests. */
+const GLANCE = 120;
 
 /** A figure's view. */
 export class View {
@@ -48,6 +50,7 @@ export class View {
   #hit = null;
   /** @type {{x: number, y: number}|null} where to look for what is pointed at, with the next frame */
   #pointer = null;
+  #glanced = 0;
   #end = new AbortController();
 
   /**
@@ -253,7 +256,7 @@ export class View {
     picture.draw(renderer, blur, { width, height, density, ...care });
     this.#copy(renderer.domElement, wide, high);
     picture.letter(eye, sharp);
-    if (this.#pointer !== null) this.#look();
+    if (sharp || performance.now() - this.#glanced > GLANCE) this.#look();
     if (this.#navigator.gliding) this.#looked();
   }
 
@@ -315,6 +318,7 @@ export class View {
   /** Look what is pointed at. */
   #look() {
     if (this.#pointer === null || this.#gestures.busy) return;
+    this.#glanced = performance.now();
     const { x, y } = this.#pointer;
     const hit = this.pick(x, y);
     this.#point(hit === null ? null : { ...hit, x, y });

@@ -111,6 +111,20 @@ test("a thousand rivets are one batch", () => {
   assert.equal(view.triangles, 1000 * rivet.topology.faces.shape[0]);
 });
 
+test("equal clear things are drawn one by one, unless there are very many", () => {
+  const { view } = theatre().figure();
+  const bubble = { ...geometry(ball(0.1, 4, 6)), color: [0, 0, 1, 0.5] };
+  const bubbles = (/** @type {number} */ n) =>
+    snapshot(...Array.from({ length: n }, (_, i) => node(`bubble${i}`, { ...bubble, matrix: at(i / 50, 0, 0) })));
+  view.show(bubbles(3));
+  assert.equal(view.batches, 3);
+  view.show(bubbles(100));
+  assert.equal(view.batches, 1);
+  view.show(bubbles(3));
+  assert.equal(view.batches, 3);
+  assert.equal(view.render(), true);
+});
+
 test("picking answers the name, of a rivet as well, and nothing where nothing is", () => {
   const { view } = theatre().figure();
   const rivet = geometry(ball(0.3, 8, 12));
