@@ -83,7 +83,7 @@ class _Composer:
     def __init__(self, casts: Mapping[str, Cast]) -> None:
         self.casts = casts
         self.order: list[str] = []  # figures that were placed so far
-        self.slugs: dict[str, int] = {}
+        self.slugs: set[str] = set()  # names of headings
         self.markdown = MarkdownIt("commonmark", {"html": False, "typographer": True})
         self.markdown.enable(["table", "strikethrough", "replacements", "smartquotes"])
         self.markdown.inline.ruler.after("escape", "number", _number)
@@ -121,8 +121,12 @@ class _Composer:
     def _slug(self, title: str) -> str:
         """A name for a heading, each once."""
         base = re.sub(r"[^\w]+", "-", title.lower()).strip("-") or "section"
-        count = self.slugs[base] = self.slugs.get(base, 0) + 1
-        return base if count == 1 else f"{base}-{count}"
+        slug, count = base, 1
+        while slug in self.slugs:
+            count += 1
+            slug = f"{base}-{count}"
+        self.slugs.add(slug)
+        return slug
 
     # -- figures ---------------------------------------------------------------------------------------------------
 
@@ -218,7 +222,7 @@ class _Composer:
             if "." in key and key.split(".", 1)[0] in self.casts:
                 name, key = key.split(".", 1)
                 if owner is not None and owner.name != name:
-                    raise ShapeError(f"#{text}: a link goes to a point of one figure")
+                    raise hint(ShapeError(f"#{text}: a link goes to a point of one figure"), "make two links of it")
                 owner = self.casts[name]
             bare.append(f"{key}={value}")
         keys = [piece.partition("=")[0] for piece in bare]
