@@ -27,7 +27,7 @@ export function extentsOf(points) {
 }
 
 /**
- * Of the node's origin and the ends of its own axes the one to take: the origin, unless that hardly moves and an end does.
+ * Of a node's origin and the ends of its axes the one to take: the origin, unless that hardly moves and an end does.
  * @param {ArrayLike<number>} here the node's matrix
  * @param {ArrayLike<number>} there the matrix for a slightly other value
  * @param {Vec3} extents
