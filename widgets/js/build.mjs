@@ -5,6 +5,7 @@ import { mkdir, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
+import { slim } from "./slimming.mjs";
 import { pageStyles } from "./src/ui/styles.js";
 
 const LIMITS = { raw: 700_000, gzipped: 200_000 }; // bytes
@@ -19,6 +20,7 @@ const made = await build({
   target: "es2022",
   charset: "utf8",
   legalComments: "eof",
+  plugins: [slim()],
   write: false,
 });
 const bundle = made.outputFiles[0].contents;

@@ -160,6 +160,10 @@ const SHAPES = new Map(
         return isList(x) && i < x.length ? x[i] : NaN;
       };
     }],
+    ["rgba", (parts, path, notes) => {
+      const [a] = operands(parts, path, notes, 1);
+      return (t, p) => rgba(a(t, p));
+    }],
     ["norm", (parts, path, notes) => {
       const [a] = operands(parts, path, notes, 1);
       return (t, p) => {
@@ -224,6 +228,16 @@ function both(operator, read, x, y) {
 function spread(x, count) {
   if (!isList(x)) return () => x;
   return x.length === count ? (i) => x[i] : () => NaN;
+}
+
+const CODE = /^#(?:[0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})$/i;
+
+/** The four numbers of a colour's code, `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`. @param {any} code */
+function rgba(code) {
+  if (typeof code !== "string" || !CODE.test(code)) return [NaN, NaN, NaN, NaN];
+  const short = code.slice(1);
+  const digits = (short.length < 5 ? short.replace(/./g, "$&$&") : short).padEnd(8, "f");
+  return [0, 2, 4, 6].map((i) => parseInt(digits.slice(i, i + 2), 16) / 255);
 }
 
 /** @param {number[]} a @param {number[]} b */

@@ -42,6 +42,10 @@ const same = /** @type {[any, any][]} */ ([
   [["==", ["param", "mode"], "fast"], true],
   [["*", 2, ["param", "length"]], 3],
   [["index", ["param", "where"], 1], 8],
+  [["rgba", "#0f3"], [0, 1, 0.2, 1]],
+  [["rgba", "#00FF3366"], [0, 1, 0.2, 0.4]],
+  [["rgba", "red"], [NaN, NaN, NaN, NaN]],
+  [["rgba", 7], [NaN, NaN, NaN, NaN]],
 ]);
 for (const [tree, expected] of same) {
   test(`${JSON.stringify(tree).slice(0, 70)} is ${JSON.stringify(expected)}`, () => {

@@ -76,7 +76,7 @@ async function visited(data, random) {
     const { parameters } = session.manifest;
     const wish = parameters.length === 0 ? {} : { [pick(random, parameters).name]: pick(random, [0.7, "blue", null]) };
     session.set({ time, parameters: wish });
-    for (let turn = 0; turn < 60 && (session.isWaiting || turn < 2); turn++) await pause();
+    for (let turn = 0; turn < 5_000 && (session.isWaiting || turn < 2); turn++) await pause();
     assert.equal(session.isWaiting, false, "it waits for nobody");
     session.spans(0, 10);
     session.evaluate("box#matrix", time);

@@ -216,6 +216,28 @@ test("an array that went is asked for again, once, and is a problem if it does n
   }
 });
 
+test("what is wanted for later is asked when nobody waits, one point at a time, and nobody is told", async () => {
+  const { puppet, session } = await begun();
+  session.on("commit", (snapshot) => assert.equal(snapshot.time, 3));
+  session.set({ time: 3 });
+  let isKnown = false;
+  const learnt = session.learn(["#values.x"], [{ parameters: { a: 1 } }, { time: 0 }, { parameters: { a: 99 } }]);
+  learnt.then(() => {
+    isKnown = true;
+  });
+  assert.deepEqual(puppet.open_.map(({ ask }) => ask.times), [[3]], "what is in view goes first");
+  puppet.open_[0].answer(said(puppet.asks[1]));
+  await pause();
+  assert.deepEqual(puppet.asks.slice(2).map(({ times, parameters, channels }) => [times, parameters.a, channels]),
+    [[[3], 1, ["#values.x"]], [[3], 10, ["#values.x"]]], "what is known of time 0 is not asked for");
+  puppet.open_[0].answer(said(puppet.asks[2]));
+  puppet.open_[0].fail(new Error("no"));
+  await learnt;
+  assert.equal(isKnown, true);
+  assert.deepEqual([1, 10].map((value) => session.evaluate("#values.x", 3, { a: value })), [301, null]);
+  assert.deepEqual([session.snapshot?.time, session.isWaiting], [3, false]);
+});
+
 test("after it is closed, nobody is asked or told anything", async () => {
   const { puppet, session } = await begun();
   session.set({ time: 3 });
