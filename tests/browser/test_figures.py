@@ -39,7 +39,7 @@ class Pendulum(r4.Illustration):
     turn = param.Number(0.0, bounds=(-180, 180), doc="of the dial [deg]")
     teeth = param.Integer(12, bounds=(3, 40))
     damped = param.Boolean(False)
-    material: Any = param.Selector(default="brass", objects=["brass", "iron"])
+    material = param.Selector(default="brass", objects=["brass", "iron"])
     hue = param.Color("#c82838")
     window = param.Range((2.0, 6.0), bounds=(0.0, 10.0))
     place = param.XYCoordinates((0.5, -0.8))
