@@ -67,7 +67,16 @@ def test_components_are_taken_as_numpy_takes_them(agree):
     vector = r4.keys({0: (1, 2, 3), 2: (4, 6, 8)})
     matrix = r4.keys({0: np.arange(9.0).reshape(3, 3), 2: np.eye(3)})
 
-    for signal in (vector[0], vector[-1], vector[1:], vector[::-1], matrix[1, 2], matrix[0], matrix[:2, 1], matrix[-1, :]):
+    for signal in (
+        vector[0],
+        vector[-1],
+        vector[1:],
+        vector[::-1],
+        matrix[1, 2],
+        matrix[0],
+        matrix[:2, 1],
+        matrix[-1, :],
+    ):
         agree(signal, (-1.0, 0.5, 1.7, 3.0), exactly_at=(0.0, 2.0))
 
 

@@ -44,7 +44,9 @@ def grown(live: st.SearchStrategy) -> st.SearchStrategy:
 
 trees = st.recursive(leaves, grown, max_leaves=12)
 times = st.lists(
-    st.one_of(st.floats(-6, 6), st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0, 3.0, -1.0, 0.25, 1.75])), min_size=1, max_size=8
+    st.one_of(st.floats(-6, 6), st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0, 3.0, -1.0, 0.25, 1.75])),
+    min_size=1,
+    max_size=8,
 )
 
 

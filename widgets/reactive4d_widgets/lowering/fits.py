@@ -30,7 +30,7 @@ LONGEST: Final = 1.0  # seconds
 SHORTEST: Final = 2.0**-14
 PER_SECOND: Final = 30  # pieces: with more, samples at ticks are better
 ASKS: Final = 4  # for each piece that there may be
-MOST_JUMPS: Final = 200
+JUMPS: Final = 2  # for each second
 PER_JUMP: Final = 80  # asks that find it
 
 
@@ -172,7 +172,7 @@ class _Fitting:
             rest: list[Panel] = []
             for panel in todo:
                 rest += self.tried(panel, done)
-            if len(self.jumps) > MOST_JUMPS:
+            if len(self.jumps) > 8 + JUMPS * (self.stop - self.start):
                 return None
             todo = rest
         done.sort(key=lambda one: one.lo)
@@ -198,6 +198,8 @@ class _Fitting:
         border = next(iter(self.borders(lo, hi)), None)
         if border is not None:
             return panel.cut(border)
+        if not panel.ends_open and self.borders(*_about(hi)):
+            return [Panel(lo, hi, 0, 0, True)]
         times = panel.times
         values = np.array([self.known[t] for t in times.tolist()])
         if len(times) < 4:
@@ -210,7 +212,7 @@ class _Fitting:
         jump = self.jump(times, values)
         if jump is not None:
             self.jumps.add(jump)
-            return panel.cut(jump)
+            return [panel]
         if hi - lo <= SHORTEST:
             done.append(made)
             return []
@@ -238,6 +240,11 @@ class _Fitting:
                 return None  # it only moves fast there
         rest = self.measure.steps(self.measure.aligned(np.array([self.known[lo], self.known[hi]])))
         return hi if float(rest[0]) > 0.25 * whole else None
+
+
+def _about(t: float) -> tuple[float, float]:
+    """The floats next to a time."""
+    return math.nextafter(t, -math.inf), math.nextafter(t, math.inf)
 
 
 def _straight(lo: float, hi: float, times: Array, values: Array) -> Cubic:

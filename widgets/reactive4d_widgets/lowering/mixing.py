@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from reactive4d.errors import Reactive4dError
 from reactive4d.model.objects import Object
 from reactive4d.model.settings import Setting
 from reactive4d.signals.facade import Signal
@@ -126,7 +127,10 @@ def _checked(asked: Asked, setting: Setting[Any], *, is_rotation: bool) -> Sampl
         values = asked.sample(times)
         if is_rotation:
             return values
-        return np.array([setting.check(value) for value in values.tolist()], dtype=np.float64)
+        try:
+            return np.array([setting.check(value) for value in values.tolist()], dtype=np.float64)
+        except Reactive4dError as error:
+            raise NotExactError(f"{setting.path} refuses what is assigned to it") from error
 
     return sample
 

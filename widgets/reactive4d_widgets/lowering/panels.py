@@ -42,11 +42,16 @@ class Panel:
         return self._at((self.k + 1) / 2**self.level)
 
     @property
+    def ends_open(self) -> bool:
+        """Whether its own end belongs to what follows."""
+        return self.is_open and self.k + 1 == 2**self.level
+
+    @property
     def times(self) -> Array:
         """(9,) when it is sampled; at most: those that are the same float stand once."""
         shares = [(_PARTS * self.k + j) / (_PARTS * 2**self.level) for j in range(_PARTS + 1)]
         found = [self._at(share) for share in shares]
-        if self.is_open and shares[-1] == 1.0:
+        if self.ends_open:
             found[-1] = math.nextafter(self.stop, -math.inf)
         return np.unique(np.array(found))
 
@@ -56,8 +61,7 @@ class Panel:
 
     def cut(self, t: float) -> "list[Panel]":
         """What lies before a border and what lies after it, as stretches of their own."""
-        is_last = self.k + 1 == 2**self.level
-        return [Panel(self.lo, t, 0, 0, True), Panel(t, self.hi, 0, 0, self.is_open and is_last)]
+        return [Panel(self.lo, t, 0, 0, True), Panel(t, self.hi, 0, 0, self.ends_open)]
 
 
 def panels(start: float, stop: float, *, borders: list[float], longest: float) -> list[Panel]:

@@ -11,7 +11,7 @@ from reactive4d_widgets.lowering.terms import NotExactError
 __all__ = ["Standing", "standings"]
 
 INF: Final = math.inf
-_MOST: Final = 256
+_MOST: Final = 64
 _SHORTEST: Final = 1e-6  # seconds: what holds no longer than this moves
 
 
