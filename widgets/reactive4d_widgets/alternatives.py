@@ -6,6 +6,7 @@ counted, and after a handful of things the rest is only mentioned.
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -57,10 +58,19 @@ def color_word(value: Any) -> str:
     >>> color_word(color("crimson")), color_word((0.5, 0.5, 0.52, 1.0)), color_word(color("mediumblue"))
     ('crimson', 'gray', 'blue')
     """
-    names = list(_WORDS)
-    known = np.array([srgb_to_oklab(color(_WORDS[name])[:3]) for name in names])
-    here = srgb_to_oklab(np.asarray(value, dtype=np.float64)[:3])
-    return names[int(np.linalg.norm(known - here, axis=1).argmin())]
+    red, green, blue = (round(float(part), 3) for part in value[:3])
+    return _nearest(red, green, blue)
+
+
+@cache
+def _known() -> Array:
+    return np.array([srgb_to_oklab(color(code)[:3]) for code in _WORDS.values()])
+
+
+@lru_cache(maxsize=4096)
+def _nearest(red: float, green: float, blue: float) -> str:
+    off = np.linalg.norm(_known() - srgb_to_oklab(np.array([red, green, blue])), axis=1)
+    return list(_WORDS)[int(off.argmin())]
 
 
 def described(sights: Sequence[Sight], values: Mapping[str, Any] | None = None, *, size: float = 1.0) -> str:

@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import cached_property
 from typing import Any
 
 from reactive4d.arrays import ARRAY
 from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
 from reactive4d.illustrations import Control, Subject, subject
+from reactive4d.model.reaches import key_times
 from reactive4d_widgets.channels import Channel, Seat, channels_of, values_of
 from reactive4d_widgets.spans import Span, span_of
 from reactive4d_widgets.sweeps import Asker
@@ -50,6 +52,11 @@ class Plan:
     def channels(self) -> list[Channel]:
         """All channels, in the order of the nodes."""
         return [channel for seat in self.seats for channel in seat.channels.values()] + self.values
+
+    @cached_property
+    def keys(self) -> tuple[float, ...]:
+        """The times of all keys, in their order."""
+        return key_times(self.subject.scene)
 
     @property
     def linear(self) -> frozenset[str]:

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.model.reaches import key_times
 from reactive4d_widgets.blends import blended
 from reactive4d_widgets.channels import Channel
 from reactive4d_widgets.coverings import Coverer, Segment
@@ -103,7 +102,7 @@ def tabulated(
     bounds = np.array([outer.min(axis=0), outer.max(axis=0)]) if len(outer) else np.zeros((2, 3))
     size = float(np.linalg.norm(bounds[1] - bounds[0])) or 1.0
     store = Store()
-    coverer = Coverer(plan.asker, store, size, keys=key_times(plan.subject.scene))
+    coverer = Coverer(plan.asker, store, size, keys=plan.keys)
     if survey is not None:
         survey(plan, coverer)
     segments: list[Segment] = []
@@ -149,7 +148,7 @@ def tabulated(
 def marks(plan: Plan) -> list[float]:
     """The times at which something begins or ends, within the span; none if there are too many to step through."""
     start, stop = plan.span.start, plan.span.stop
-    found = sorted({start, stop, *(t for t in key_times(plan.subject.scene) if start < t < stop)})
+    found = sorted({start, stop, *(t for t in plan.keys if start < t < stop)})
     return found if len(found) <= MOST_MARKS else [start, stop]
 
 
