@@ -49,7 +49,7 @@ class Pendulum(r4.Illustration):
         """A bob on a rod, a marker in the plane, a dial."""
         p = self.signals
         swing = p.angle * np.cos(np.sqrt(9.81 / p.length) * r4.time)
-        bob = r4.Sphere(0.12, color="crimson")
+        bob = r4.Sphere(0.12, color=p.hue)
         bob.translate(r4.vec(0, 0, -p.length))
         bob.rotate(swing, axis="y")
         rod = r4.Box(size=(0.03, 0.03, 1.0), color="gray")
@@ -67,6 +67,20 @@ class Pendulum(r4.Illustration):
         scene.handle(bob, z=p.length, label="length")
         scene.handle(marker, xy=p.place, label="place")
         scene.handle(dial, angle=p.turn, label="turn")
+        return scene
+
+
+class Shelf(r4.Illustration):
+    """A book that stands where only Python knows."""
+
+    reach = param.Number(0.0, bounds=(0, 4))
+
+    def build(self) -> r4.Scene:
+        """Neither a track nor an expression says where it is."""
+        book = r4.Box(size=(0.2, 0.6, 0.8))
+        book.translate(r4.vec(r4.lift(lambda x: x + 0.1 * (round(x) % 2))(self.signals.reach), 0, 0))
+        scene = r4.Scene(book=book, end=r4.Box(size=(0.1, 0.1, 0.1)))
+        scene.handle(book, x=self.signals.reach)
         return scene
 
 
@@ -233,6 +247,25 @@ def test_a_handle_is_under_the_pointer_that_pulls_it(
     now = point(reader)[moved]
     handle.press("ArrowLeft")
     assert point(reader)[moved] != now
+
+
+def test_a_handle_of_a_baked_parameter_goes_from_stop_to_stop(read: Read, tmp_path: Path):
+    """Where the node stands at stops that nobody has asked for is asked for when the handle is taken."""
+    path = tmp_path / "shelf.html"
+    Shelf().bake(str(path), times=(0.0, 1.0), progress=False, reach=[0.0, 1.0, 2.0, 4.0])
+    reader = read(path)
+    reader.until(LIVES)
+    handle = reader.page.locator("r4d-figure .handle").first
+    handle.focus()
+    reader.until("() => document.querySelector('r4d-figure').reader.session.evaluate('book#matrix', 0, { reach: 2 })")
+    span = reader.ask(
+        "() => { const { view } = document.querySelector('r4d-figure').life;"
+        " return view.project([2, 0, 0]).x - view.project([0, 0, 0]).x }"
+    )
+    dragged(reader, handle, span, 0)
+    assert point(reader)["reach"] == 2.0
+    handle.press("ArrowRight")
+    assert point(reader)["reach"] == 4.0
 
 
 def test_a_number_in_the_text_is_dragged_typed_and_stepped(opened: Callable[..., Reader]):

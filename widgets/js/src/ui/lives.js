@@ -228,9 +228,7 @@ export class Life {
 
   /** Ask where a node stands for other parameters. @param {string} node @param {Parameters[]} others */
   #learn(node, others) {
-    const { session } = this.#parts;
-    const learn = /** @type {any} */ (session).learn;
-    learn?.call(session, [`${node}#matrix`], others.map((parameters) => ({ parameters })));
+    this.#parts.session.learn([`${node}#matrix`], others.map((parameters) => ({ parameters })));
   }
 
   /** @param {Hit | null} hit */
