@@ -13,6 +13,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder share
 
+from programs import Program, baked_once
 from readers import Reader
 
 from reactive4d_apps.browsers import FLAGS, chromium, driver
@@ -60,3 +61,9 @@ def read(browser: Any) -> Iterator[Callable[..., Reader]]:
     for reader in readers:
         assert reader.left == [], "requests that leave the machine"
         assert reader.complaints == [], "what the browser complained about"
+
+
+@pytest.fixture(scope="session")
+def page_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Program]:
+    """The page of a program by its name, see `programs.NAMES`; each is baked once."""
+    return baked_once(tmp_path_factory.mktemp("pages"))
