@@ -90,6 +90,11 @@ export class Contents {
     this.#lights.hurry = on;
   }
 
+  /** Whether a light of the scene throws shadows. */
+  get throwing() {
+    return this.#lights.throwing;
+  }
+
   /** How many batches are drawn. */
   get batches() {
     return [...this.#batches].length;

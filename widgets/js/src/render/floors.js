@@ -13,6 +13,7 @@ import {
   RGFormat,
   Scene,
   ShaderMaterial,
+  ShadowMaterial,
   Vector2,
   WebGLRenderTarget,
   DoubleSide,
@@ -26,6 +27,8 @@ import { CASTERS } from "./meshes.js";
 
 const SIZE = 128;
 const MARGIN = 1.7;
+/** A thing that lies on the floor is seen, not the floor. */
+const BEHIND = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 };
 
 const HEIGHTS = /* glsl */ `
   attribute vec4 tint;
@@ -205,6 +208,8 @@ export class Floor {
     pitch: { value: 1 },
   };
   #half = 1;
+  /** @type {Mesh<PlaneGeometry, ShadowMaterial>|null} where the ground shows thrown shadows */
+  #screen = null;
 
   /**
    * @param {import("three").Object3D} parent
@@ -217,9 +222,7 @@ export class Floor {
       uniforms: this.#uniforms,
       transparent: true,
       depthWrite: false,
-      polygonOffset: true,
-      polygonOffsetFactor: 2,
-      polygonOffsetUnits: 2,
+      ...BEHIND,
     });
     this.#quad = new Mesh(new PlaneGeometry(2, 2), material);
     this.#quad.renderOrder = -10;
@@ -270,6 +273,20 @@ export class Floor {
 
   wanted = false;
 
+  /** @param {boolean} on whether lights of the scene throw shadows, which the ground then shows */
+  set thrown(on) {
+    const shown = on && this.#uniforms.grounded.value > 0;
+    if (this.#screen !== null) this.#screen.visible = shown;
+    if (!shown || this.#screen !== null) return;
+    const material = new ShadowMaterial({ opacity: 0.45, depthWrite: false, ...BEHIND });
+    this.#screen = new Mesh(this.#quad.geometry, material);
+    this.#screen.position.copy(this.#quad.position);
+    this.#screen.scale.set(2 * this.#half, 2 * this.#half, 1);
+    this.#screen.receiveShadow = true;
+    this.#screen.renderOrder = -9;
+    this.#quad.parent?.add(this.#screen);
+  }
+
   /**
    * Look at the things from below.
    * @param {WebGLRenderer} renderer
@@ -292,6 +309,7 @@ export class Floor {
   /** The context is lost: forget what was on the card. */
   forget() {
     this.#image?.dispose();
+    this.#screen?.material.dispose();
     this.#quad.geometry.dispose();
     this.#quad.material.dispose();
   }
@@ -299,6 +317,8 @@ export class Floor {
   /** Free it. */
   dispose() {
     this.#image?.dispose();
+    this.#screen?.removeFromParent();
+    this.#screen?.material.dispose();
     this.#quad.removeFromParent();
     this.#quad.geometry.dispose();
     this.#quad.material.dispose();

@@ -17,9 +17,12 @@ import { thin } from "./thinning.js";
  * @property {boolean} hidden behind something
  */
 
-/** @typedef {{label: Label, element: HTMLElement, width: number, height: number, shown: boolean, css: string}} Entry */
+/** @typedef {{label: Label, element: HTMLElement, shown: boolean, css: string}} Look */
+/** @typedef {Look & {width: number, height: number, measured: boolean}} Entry */
 
 const READABLE = 3;
+/** The width of a letter, of its height. */
+const GUESS = 0.55;
 const LAYER = "position:absolute;inset:0;overflow:hidden;pointer-events:none;contain:strict";
 const TEXT =
   "position:absolute;left:0;top:0;white-space:nowrap;line-height:1.2;transform-origin:0 0;transition:opacity .12s;";
@@ -64,7 +67,7 @@ export class LabelLayer {
     const element = this.#canvas.ownerDocument.createElement("div");
     element.className = "r4d-label";
     this.element.append(element);
-    this.#entries.set(label.name, { label, element, width: 0, height: 0, shown: false, css: "" });
+    this.#entries.set(label.name, { label, element, width: 0, height: 0, measured: false, shown: false, css: "" });
   }
 
   /** @param {string} name */
@@ -98,8 +101,8 @@ export class LabelLayer {
       const { entry, x, y } = label;
       const [a, c, b, d] = entry.label.turn;
       const turned = `matrix(${a},${-b},${-c},${d},0,0)`;
-      const centered = `translate(${-entry.width / 2}px,${-entry.height / 2}px)`;
-      entry.element.style.transform = `translate(${x.toFixed(2)}px,${y.toFixed(2)}px) ${turned} ${centered}`;
+      const place = `translate(${x.toFixed(2)}px,${y.toFixed(2)}px)`;
+      entry.element.style.transform = `${place} ${turned} translate(-50%,-50%)`;
       show(entry, kept.has(label));
     }
   }
@@ -144,13 +147,19 @@ export class LabelLayer {
     const { element, label } = entry;
     const look = `color:${readable(label.color, this.#theme)};text-shadow:${halo(this.#theme.paper)};`;
     const css = `${TEXT}font-size:${label.height}px;${look}`;
-    if (entry.css === css) return;
-    entry.css = css;
-    element.textContent = label.text;
-    element.style.cssText = css;
-    element.style.opacity = entry.shown ? "1" : "0";
-    entry.width = element.offsetWidth;
-    entry.height = element.offsetHeight;
+    if (entry.css !== css) {
+      entry.css = css;
+      element.textContent = label.text;
+      element.style.cssText = css;
+      element.style.opacity = entry.shown ? "1" : "0";
+      entry.measured = false;
+    }
+    if (entry.measured) return;
+    // What is on no screen has no size; then a guess must do until it is.
+    const width = element.offsetWidth;
+    entry.measured = width > 0;
+    entry.width = entry.measured ? width : GUESS * label.height * label.text.length;
+    entry.height = entry.measured ? element.offsetHeight : label.height;
   }
 }
 

@@ -105,11 +105,6 @@ export class Lights {
     this.#settle();
   }
 
-  /** @param {string} name */
-  has(name) {
-    return this.#own.has(name);
-  }
-
   /**
    * Put the lights where they belong for this picture.
    * @param {Eye} eye

@@ -255,7 +255,7 @@ export class MeshBatch {
       mesh.renderOrder = this.clear ? ORDER_CLEAR + 0.25 * i : i;
       if (i === 0) mesh.layers.enable(CASTERS);
       mesh.castShadow = i === 0 && !this.clear;
-      mesh.receiveShadow = true;
+      mesh.receiveShadow = !this.clear;
       this.#meshes.push(mesh);
     });
     this.#setLines();

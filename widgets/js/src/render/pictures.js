@@ -114,6 +114,7 @@ export class Picture {
       this.#skipped = 0;
     }
     this.contents.hurry = !shadows;
+    this.#floor.thrown = this.contents.throwing;
     renderer.setSize(width, height, false);
     renderer.render(this.#scene, this.#camera);
   }

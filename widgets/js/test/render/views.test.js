@@ -1,65 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Stage } from "../../src/render/stages.js";
-import { View } from "../../src/render/views.js";
 import { ball, box } from "../fixtures/shapes.mjs";
-import { FakeCard, FakeElement, page } from "./cards.js";
-import { at, floats, geometry, manifest, node, other, snapshot } from "./makings.js";
+import { page } from "./cards.js";
+import { at, floats, geometry, node, other, snapshot } from "./makings.js";
+import { everything, memory, theatre } from "./theatres.js";
 
-/** @typedef {import("../../src/core/types.js").Manifest} Manifest */
+/** @typedef {import("./cards.js").FakeElement} FakeElement */
 
-const beat = page();
-
-/** A stage on a make-believe card. */
-function theatre() {
-  const card = new FakeCard();
-  const stage = new Stage({ canvas: /** @type {any} */ (card) });
-  /** @param {Partial<Manifest["options"]>} [options] */
-  const figure = (options) => {
-    const canvas = new FakeElement();
-    new FakeElement().append(canvas);
-    const view = new View(stage, /** @type {any} */ (canvas), manifest(options));
-    return { canvas, view };
-  };
-  return { card, stage, figure };
-}
-
-const memory = (/** @type {Stage} */ stage) => ({ ...stage.info?.memory });
-
-/** One of everything. */
-function everything() {
-  const cube = geometry(box(1));
-  return [
-    node("cube", cube),
-    node("mirrored", { ...cube, matrix: Float64Array.of(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) }),
-    node("glass", { ...geometry(ball(0.5)), color: [0, 0, 1, 0.4] }),
-    node("way", { drawn: "lines", points: { a: floats(Float32Array.of(0, 0, 0, 1, 0, 0)), b: null, mix: 0 } }),
-    node("dots", { drawn: "points", points: { a: floats(Float32Array.of(0, 0, 0, 1, 0, 0)), b: null, mix: 0 } }),
-    other("name", "label", { text: "the cube", height: 16 }, { matrix: at(0, 0, 0.9) }),
-    other("sun", "light", { light_type: "directional", intensity: 1, shadows: true }),
-    other("lamp", "light", { light_type: "spot", intensity: 1, angle: 30 }),
-    other("bulb", "light", { light_type: "point", intensity: 1, reach: 3 }),
-    other("glow", "light", { light_type: "ambient", intensity: 0.2 }),
-    other("eye", "camera", { fov: 30 }, { matrix: Float64Array.of(1, 0, 0, 0, 0, 0, -1, -8, 0, 1, 0, 0, 0, 0, 0, 1) }),
-    other("group", "none", {}),
-  ];
-}
-
-test("no context is made before there is something to draw", () => {
-  const { card, stage, figure } = theatre();
-  figure();
-  assert.equal(stage.info, null);
-  assert.deepEqual(card.calls, {});
-});
-
-test("a figure is drawn once for what changed, and not again", () => {
-  const { canvas, view } = theatre().figure();
-  view.show(snapshot(...everything()));
-  beat();
-  assert.equal(canvas.drawn.drawImage, 1);
-  beat();
-  assert.equal(canvas.drawn.drawImage, 1);
-});
+page();
 
 test("going round costs no byte; what moves costs its matrix; what is equal costs nothing", () => {
   const { card, figure } = theatre();
@@ -231,6 +179,21 @@ test("a node may become what it likes, and back", () => {
   assert.deepEqual(memory(stage), { geometries: 0, textures: 0 });
 });
 
+test("the ground shows the shadows that the scene's lights throw, and goes with them", () => {
+  const { card, stage, figure } = theatre();
+  const { view } = figure({ ground: true });
+  const draws = (/** @type {boolean} */ shadows) => {
+    const sun = other("sun", "light", { light_type: "directional", shadows });
+    view.show(snapshot(node("cube", geometry(box(1))), sun));
+    return card.during(() => view.render()).drawElements;
+  };
+  const without = draws(false);
+  assert.equal(draws(true), without + 1);
+  assert.equal(draws(false), without);
+  view.dispose();
+  assert.deepEqual(memory(stage), { geometries: 0, textures: 0 });
+});
+
 test("every way of drawing goes, whatever it was before", () => {
   const { view } = theatre().figure();
   view.show(snapshot(...everything()));
@@ -242,85 +205,4 @@ test("every way of drawing goes, whatever it was before", () => {
     }
   }
   assert.equal(view.options.shading, "smooth");
-});
-
-test("what is disposed of is gone from the card", () => {
-  const { stage, figure } = theatre();
-  const figures = [figure({ axes: true, ground: true, grid: true }), figure(), figure({ shading: "wire" })];
-  for (const { view } of figures) {
-    view.show(snapshot(...everything()));
-    view.highlight("cube");
-    view.render();
-  }
-  assert.ok((stage.info?.memory.geometries ?? 0) > 20);
-  for (const { view } of figures) view.dispose();
-  assert.deepEqual(memory(stage), { geometries: 0, textures: 0 });
-  stage.dispose();
-  assert.deepEqual(memory(stage), { geometries: 0, textures: 0 });
-});
-
-test("scrubbing to and fro through topologies keeps nothing on the card", () => {
-  const { stage, figure } = theatre();
-  const { view } = figure();
-  const steps = [geometry(box(1)), geometry(ball(1)), geometry(ball(1, 8, 8))];
-  for (let i = 0; i < 12; i += 1) {
-    view.show(snapshot(node("cut", steps[i % 3])));
-    view.render();
-    assert.ok((stage.info?.memory.geometries ?? 0) <= 4, "its mesh, its creases, the floor, the blur");
-  }
-});
-
-test("a lost context is told, nothing is drawn without it, and with the new one all comes back", () => {
-  const { card, stage, figure } = theatre();
-  const { canvas, view } = figure();
-  /** @type {string[]} */
-  const told = [];
-  view.on("lost", () => told.push("lost"));
-  view.on("restored", () => told.push("restored"));
-  view.show(snapshot(...everything()));
-  view.render();
-  const log = console.log;
-  console.log = () => {};
-  card.dispatchEvent(new Event("webglcontextlost"));
-  assert.deepEqual(memory(stage), { geometries: 0, textures: 0 });
-  assert.equal(view.render(), false);
-  card.dispatchEvent(new Event("webglcontextrestored"));
-  console.log = log;
-  assert.deepEqual(told, ["lost", "restored"]);
-  const before = canvas.drawn.drawImage;
-  const calls = card.during(beat);
-  assert.equal(canvas.drawn.drawImage, before + 1);
-  assert.ok(calls.bufferData > 10, "everything is brought there again");
-});
-
-test("without a graphics card a figure says that it is lost", () => {
-  const card = new FakeCard();
-  card.getContext = () => null;
-  const stage = new Stage({ canvas: /** @type {any} */ (card) });
-  const canvas = new FakeElement();
-  const view = new View(stage, /** @type {any} */ (canvas), manifest());
-  let lost = 0;
-  view.on("lost", () => (lost += 1));
-  const error = console.error;
-  console.error = () => {};
-  assert.equal(view.render(), false);
-  console.error = error;
-  assert.equal(lost, 1);
-  assert.equal(view.render(), false);
-  assert.equal(lost, 1);
-});
-
-test("the first picture is quick, the one at rest is fine", async () => {
-  const { card, figure } = theatre();
-  const { canvas, view } = figure();
-  view.show(snapshot(...everything()));
-  beat();
-  view.show(snapshot());
-  beat();
-  assert.equal(card.width, 400);
-  assert.equal(canvas.width, 400);
-  await new Promise((resolve) => setTimeout(resolve, 260));
-  beat();
-  assert.ok(card.width > 400, `${card.width}`);
-  assert.equal(canvas.width, 400);
 });
