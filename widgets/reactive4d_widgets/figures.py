@@ -149,7 +149,9 @@ class Shown:
         # Where something of the scene is an error there is no frame, and no picture.
         if not can_draw() or answer(scene.frame, t, **given).error is not None:
             return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'
-        data = poster(self.thing, t=t, size=SIZE, camera=self._camera(scene.at(t, **given)), parameters=given)
+        camera = self._camera(scene.at(t, **given))
+        bounds = self.table.manifest["bounds"]
+        data = poster(self.thing, t=t, size=SIZE, camera=camera, parameters=given, bounds=bounds)
         return f'width="{width}" height="{height}" src="data:image/png;base64,{base64.b64encode(data).decode("ascii")}"'
 
     def _camera(self, frame: Any) -> Any:

@@ -1,6 +1,7 @@
 """Stills: pictures of a scene at one instant, for print, for posters, and for whoever has no browser."""
 
 import io
+import itertools
 import math
 import operator
 import os
@@ -91,9 +92,12 @@ def poster(
     edges: bool = False,
     shadows: bool = True,
     parameters: Mapping[str, Any] | None = None,
+    bounds: Any = None,
     **values: Any,
 ) -> bytes:
     """The same picture as the bytes of a PNG file, for a page to carry.
+
+    Whoever knows the `bounds` of all that is ever to be seen, (2, 3) metres, spares the scene from being asked for it.
 
     >>> import reactive4d as r4
     >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 30_000
@@ -107,7 +111,7 @@ def poster(
     width, height = _size(size)
     theme = _theme(background)
     given = {**(parameters or {}), **values}
-    frame, view, bounds = seen(subject, t, aspect=width / height, camera=camera, parameters=given)
+    frame, view, box = seen(subject, t, aspect=width / height, camera=camera, parameters=given, bounds=bounds)
     composition = composed(frame)
     # Drawn larger and made smaller: smooth edges, of lines and letters too, on every card.
     finer = 2 if max(width, height) * 2 <= LARGEST else 1
@@ -116,7 +120,7 @@ def poster(
         composition,
         view,
         light=light_of(frame.values(), view),
-        bounds=bounds,
+        bounds=box,
         size=(width * finer, height * finer),
         ratio=ratio,
         finer=finer,
@@ -132,7 +136,13 @@ def poster(
 
 
 def seen(
-    subject: Any, t: float, *, aspect: float, camera: Any = None, parameters: Mapping[str, Any] | None = None
+    subject: Any,
+    t: float,
+    *,
+    aspect: float,
+    camera: Any = None,
+    parameters: Mapping[str, Any] | None = None,
+    bounds: Any = None,
 ) -> tuple[Frame, View, NDArray[np.float64]]:
     """What is seen of a subject at a time, from where, and (2, 3) the box of all over its times; as for `render`.
 
@@ -145,9 +155,12 @@ def seen(
     if parameters:
         given = given.moved({name: given.control(name).encode(value) for name, value in parameters.items()})
     frame = given.scene.at(t, **given.values)
-    points = outermost(given.scene.at(other, **given.values) for other in instants(*given.times))
-    points = np.concatenate([points, outermost([frame])])
-    bounds = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
+    if bounds is None:
+        points = outermost(given.scene.at(other, **given.values) for other in instants(*given.times))
+        points = np.concatenate([points, outermost([frame])])
+    else:
+        points = np.array(list(itertools.product(*np.asarray(bounds, dtype=np.float64).T)))
+    box = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
     if camera is None and given.point.camera is not None:
         camera = dict(zip(("position", "target"), given.point.camera, strict=True))
     if camera is None:
@@ -156,7 +169,7 @@ def seen(
         view = _named(camera, frame)
     else:
         view = camera if isinstance(camera, View) else _view(camera)
-    return frame, view, bounds
+    return frame, view, box
 
 
 def _named(camera: str, frame: Frame) -> View:
