@@ -1,3 +1,6 @@
+const NETWORK = ["fetch", "XMLHttpRequest", "EventSource", "importScripts"]; // there is none at run time
+const SCREEN = ["document", "window", "requestAnimationFrame", "matchMedia", "localStorage"];
+
 const DATA_IS_NO_MARKUP = "set textContent, or make elements: data is no markup";
 
 export default [
@@ -52,4 +55,6 @@ export default [
       ],
     },
   },
+  { files: ["src/**"], rules: { "no-restricted-globals": ["error", ...NETWORK] } },
+  { files: ["src/core/**", "src/transports/**"], rules: { "no-restricted-globals": ["error", ...NETWORK, ...SCREEN] } },
 ];
