@@ -153,6 +153,13 @@ select {
   .scrub { grid-row: 1; grid-column: 1 / -1; }
   .player > .amount { justify-self: center; }
 }
+@container (max-width: 22rem) {
+  .player { grid-template-columns: auto minmax(0, 1fr) auto; }
+  .player > .transport { grid-row: 2; grid-column: 1 / 3; }
+  .player > .extras { grid-row: 2; grid-column: 2 / -1; justify-self: end; }
+  .player > .scrub { grid-column: 1 / 3; }
+  .player > .amount { grid-row: 1; grid-column: 3; }
+}
 [data-follows] :is(.transport, .scrub, .speed, .extras > [aria-pressed]),
   [data-follows] .player > .amount { display: none; }
 [data-follows] .player { grid-template-columns: 1fr auto; }

@@ -15,8 +15,7 @@ body {
   font-kerning: normal; font-variant-ligatures: common-ligatures; text-rendering: optimizeLegibility;
 }
 .r4d-page {
-  box-sizing: border-box; display: grid; justify-content: center;
-  grid-template-columns: minmax(0, 34em); padding: clamp(1.5rem, 6vw, 4.5rem) clamp(1rem, 5vw, 2rem) 5rem;
+  max-width: 34em; margin-inline: auto; padding: clamp(1.5rem, 6vw, 4.5rem) clamp(1rem, 5vw, 2rem) 5rem;
 }
 .r4d-page > * { margin: 0; min-width: 0; }
 .r4d-page p, .r4d-page li { hyphens: auto; overflow-wrap: break-word; hanging-punctuation: first; }
@@ -60,7 +59,7 @@ r4d-figure:not(:defined) .r4d-poster {
 @media print {
   :root { --paper: #fff; }
   body { font-size: 10.5pt; line-height: 1.45; background: none; }
-  .r4d-page { display: block; padding: 0; max-width: 36em; margin-inline: auto; }
+  .r4d-page { padding: 0; max-width: 36em; }
   .r4d-page a { color: inherit; }
   .r4d-page h1, .r4d-page h2, .r4d-page h3 { break-after: avoid; }
   figure.r4d, .r4d-page > r4d-figure { break-inside: avoid; margin-inline: 0; }

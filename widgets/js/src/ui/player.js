@@ -27,7 +27,7 @@ export class Player {
     this.#reader = reader;
     const { start, stop } = reader.manifest.times;
     this.#limits = { lo: start, hi: stop, step: niceBelow((stop - start) / 100), stops: null };
-    this.fine = niceBelow((stop - start) / 1000);
+    this.fine = niceBelow((stop - start) / 400);
     this.main = reader.manifest.options.playing || "time";
 
     this.play = button("Play", icon("play"), () => reader.toggle(this.main), { class: "icon-button play" });
