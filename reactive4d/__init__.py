@@ -65,6 +65,7 @@ from reactive4d.signals.functions import signal
 from reactive4d.signals.keys import Keys, keys
 from reactive4d.signals.rotations import Rotation
 from reactive4d.signals.sources import Parameter, Variable, time
+from reactive4d.sweeping import contact_sheet, sweep
 
 __all__ = [
     "FOREVER",
@@ -184,6 +185,7 @@ __all__ = [
     "Wave",
     "XForm",
     "color",
+    "contact_sheet",
     "dumps",
     "equal",
     "explain",
@@ -194,6 +196,7 @@ __all__ = [
     "log",
     "signal",
     "stats",
+    "sweep",
     "time",
     "transaction",
     "vec",
