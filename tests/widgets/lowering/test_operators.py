@@ -17,7 +17,8 @@ PAIRS = [(a, b) for a in (2.5, -2.5, 0.0, 1.0, -1.0, 7.0) for b in (2.0, -2.0, 0
 ONE = [
     np.negative, np.positive, np.absolute, np.fabs, np.sqrt, np.cbrt, np.square, np.reciprocal, np.sin, np.cos, np.tan,
     np.arcsin, np.arccos, np.arctan, np.sinh, np.cosh, np.tanh, np.arcsinh, np.arccosh, np.arctanh, np.exp, np.exp2,
-    np.expm1, np.log, np.log2, np.log10, np.log1p, np.radians, np.degrees, np.floor, np.ceil, np.rint, np.trunc, np.sign,
+    np.expm1, np.log, np.log2, np.log10, np.log1p, np.radians, np.degrees, np.floor, np.ceil, np.rint, np.trunc,
+    np.sign,
 ]  # fmt: skip
 TWO = [
     np.add, np.subtract, np.multiply, np.true_divide, np.floor_divide, np.mod, np.fmod, np.power, np.float_power,

@@ -1,6 +1,7 @@
 """Pieces of curves as polynomials of seconds: what a track of kind `poly` is made of."""
 
 from collections.abc import Sequence
+from functools import cache
 from itertools import pairwise
 from math import comb
 from typing import Any, NamedTuple
@@ -9,11 +10,12 @@ import numpy as np
 
 from reactive4d.signals.curves import clocks
 from reactive4d.signals.curves.pieces import Piece
+from reactive4d.signals.easings import Easing
 from reactive4d_widgets.lowering.numerals import Array
 from reactive4d_widgets.lowering.paces import arches
 from reactive4d_widgets.lowering.terms import NotExactError, Shape, Term, polynomials
 
-__all__ = ["Bit", "bits_of", "joined", "powers_of"]
+__all__ = ["Bit", "bits_of", "is_low", "joined", "powers_of"]
 
 MOST_DEGREE = 3
 _EVEN = 1e-15  # how far handles in time may be from those that leave it alone
@@ -34,17 +36,20 @@ def powers_of(controls: Sequence[Any]) -> Array:
     [1.0, 0.0, 3.0]
     """
     table: Array = np.array(controls, dtype=np.float64).reshape(len(controls), -1)
-    p = len(controls) - 1
-    rows: list[Array] = []
     with np.errstate(over="ignore", invalid="ignore"):
-        for j in range(p + 1):
-            row = sum((-1.0) ** (j - i) * comb(j, i) * table[i] for i in range(j + 1))
-            rows.append(comb(p, j) * np.asarray(row))
-    return np.array(rows)
+        powers: Array = _from_bernstein(len(controls) - 1) @ table
+    powers[0] = table[0]
+    return powers
 
 
-def bits_of(piece: Piece) -> list[Bit] | None:
-    """A piece as polynomials of degree 3 at most; None where its ease makes it more than that.
+@cache
+def _from_bernstein(p: int) -> Array:
+    """(p + 1, p + 1) the matrix that makes powers of controls."""
+    return np.array([[(-1.0) ** (j - i) * comb(p, j) * comb(j, i) for i in range(p + 1)] for j in range(p + 1)])
+
+
+def is_low(piece: Piece) -> bool:
+    """Whether a piece is made of polynomials of degree 3 at most, its ease included.
 
     Raises:
         NotExactError: time runs through it as handles tell, or it is of a higher degree.
@@ -53,32 +58,53 @@ def bits_of(piece: Piece) -> list[Bit] | None:
         raise NotExactError("handles in time")
     if len(piece.controls) > MOST_DEGREE + 1:
         raise NotExactError("a B-spline of a high degree")
+    if piece.ease is None:
+        return True
+    found = arches(piece.ease)
+    degree = len(piece.controls) - 1
+    return found is not None and all(degree * (len(arch.powers) - 1) <= MOST_DEGREE for arch in found)
+
+
+def bits_of(piece: Piece) -> list[Bit] | None:
+    """A piece as polynomials of degree 3 at most; None where its ease makes it more than that.
+
+    Raises:
+        NotExactError: as `is_low`.
+    """
+    if not is_low(piece):
+        return None
     length = piece.hi - piece.lo
     powers = powers_of(piece.controls)
     if piece.ease is None:
         return [Bit(piece.lo, piece.hi, _slowed(powers, length))]
-    found = arches(piece.ease)
-    if found is None or any((len(powers) - 1) * (len(arch.powers) - 1) > MOST_DEGREE for arch in found):
-        return None
     bits: list[Bit] = []
-    for arch in found:
-        start = np.polynomial.Polynomial([arch.start, 1.0])
-        eased = np.polynomial.Polynomial(arch.powers)(start)
-        columns = [np.polynomial.Polynomial(column)(eased).coef for column in powers.T]
-        width = max(len(column) for column in columns)
-        table: Array = np.array([np.pad(column, (0, width - len(column))) for column in columns], dtype=np.float64).T
-        lo = piece.lo if arch.start == 0.0 else piece.lo + length * arch.start
-        hi = piece.hi if arch.stop == 1.0 else piece.lo + length * arch.stop
-        bits.append(Bit(lo, hi, _slowed(table, length)))
+    for start, stop, matrix in _eased(piece.ease, len(powers) - 1):
+        lo = piece.lo if start == 0.0 else piece.lo + length * start
+        hi = piece.hi if stop == 1.0 else piece.lo + length * stop
+        bits.append(Bit(lo, hi, _slowed(matrix @ powers, length)))
     # At its start a piece is its first control, to the last bit.
     bits[0].powers[0] = powers[0]
     return bits
 
 
+@cache
+def _eased(ease: Easing, degree: int) -> tuple[tuple[float, float, Array], ...]:
+    """For each arch of an ease its span, and the matrix that makes powers, counted from its start, of powers of it."""
+    found: list[tuple[float, float, Array]] = []
+    for arch in arches(ease) or ():
+        moved: Any = np.polynomial.Polynomial([arch.start, 1.0])
+        eased: Any = np.polynomial.Polynomial(arch.powers)(moved)
+        columns = [(eased**j).coef for j in range(degree + 1)]
+        width = (len(arch.powers) - 1) * degree + 1
+        matrix = np.array([np.pad(column, (0, width - len(column))) for column in columns], dtype=np.float64).T
+        found.append((arch.start, arch.stop, matrix))
+    return tuple(found)
+
+
 def _slowed(powers: Array, length: float) -> Array:
     """From powers of the share to powers of seconds."""
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.array([row / length**j for j, row in enumerate(powers)])
+        return powers / (length ** np.arange(len(powers)))[:, None]
 
 
 def joined(bits: Sequence[Bit], *, shape: Shape, end: Any = None) -> Term:

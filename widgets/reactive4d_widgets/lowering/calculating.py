@@ -13,7 +13,7 @@ import numpy as np
 
 from reactive4d.signals.trees import is_a
 
-__all__ = ["calculate"]
+__all__ = ["LOGICAL", "NUMERIC", "calculate"]
 
 # Plays a track at a time.
 Player: TypeAlias = Callable[[Any, float], Any]
@@ -90,7 +90,7 @@ def _or(a: Any, b: Any) -> Any:
 
 _HEX: Final = re.compile(r"#(?:[0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})")
 _op: Any = operator  # its functions have no types
-_NUMERIC: Final[dict[str, Callable[..., Any]]] = {
+NUMERIC: Final[dict[str, Callable[..., Any]]] = {
     "+": np.add,
     "-": np.subtract,
     "*": np.multiply,
@@ -131,7 +131,7 @@ _NUMERIC: Final[dict[str, Callable[..., Any]]] = {
     "cross": _cross,
     "vec": _vec,
 }
-_LOGICAL: Final[dict[str, Callable[..., Any]]] = {
+LOGICAL: Final[dict[str, Callable[..., Any]]] = {
     "<": _compare(np.less, _op.lt),
     "<=": _compare(np.less_equal, _op.le),
     ">": _compare(np.greater, _op.gt),
@@ -177,8 +177,8 @@ def calculate(tree: Any, t: float, parameters: Mapping[str, Any], play: Player) 
         return calculate(tree[1], float(calculate(tree[2], t, parameters, play)), parameters, play)
     values: list[Any] = [calculate(x, t, parameters, play) for x in operands]
     with np.errstate(all="ignore"):
-        if name in _NUMERIC:
-            return _plain(_NUMERIC[name](*map(_number, values)))
-        if name in _LOGICAL:
-            return _plain(_LOGICAL[name](*values))
+        if name in NUMERIC:
+            return _plain(NUMERIC[name](*map(_number, values)))
+        if name in LOGICAL:
+            return _plain(LOGICAL[name](*values))
     raise ValueError(f"{name!r} is no operator")

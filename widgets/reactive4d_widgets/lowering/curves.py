@@ -13,7 +13,7 @@ import numpy as np
 from reactive4d.signals.curves.curve import Curve
 from reactive4d.signals.curves.pieces import Piece
 from reactive4d.signals.curves.spaces import Colors
-from reactive4d_widgets.lowering.bits import bits_of, joined, powers_of
+from reactive4d_widgets.lowering.bits import bits_of, is_low, joined, powers_of
 from reactive4d_widgets.lowering.foldings import extended, passed
 from reactive4d_widgets.lowering.holding import held_curve
 from reactive4d_widgets.lowering.paces import overshoots, tree_of
@@ -101,7 +101,7 @@ def _grouped(kinds: list[Any], pieces: list[Piece]) -> Any:
 
 def _kind_of(piece: Piece) -> str | None:
     """None where a piece is a polynomial of a low degree, else the name of its ease."""
-    if bits_of(piece) is not None:
+    if is_low(piece):
         return None
     assert piece.ease is not None
     return piece.ease.name

@@ -10,6 +10,7 @@ import numpy as np
 from reactive4d.signals.colors import color, srgb_to_blended
 from reactive4d.signals.rotations import Rotation
 from reactive4d_widgets.lowering.numerals import Array, coarse, fine
+from reactive4d_widgets.lowering.specimens import lowered_matrices, lowered_tracks
 
 __all__ = ["matrices", "tracks"]
 
@@ -26,6 +27,7 @@ def tracks() -> Iterator[Example]:
     yield from _colors()
     yield from _elsewhere()
     yield from _expressions()
+    yield from lowered_tracks()
 
 
 def matrices() -> Iterator[Example]:
@@ -35,6 +37,7 @@ def matrices() -> Iterator[Example]:
         yield f"product {i} {name}", {"kind": "product", "factors": factors}, _NOTHING
     along = {"op": "translate", "offset": expr(["vec", ["param", "x"], _TIME, 0])}
     yield "product of a parameter", {"kind": "product", "factors": [along]}, [{"x": 0.5}, {"x": -2.0}]
+    yield from lowered_matrices()
 
 
 def expr(tree: Any) -> dict[str, Any]:
@@ -78,7 +81,11 @@ def _polynomials() -> Iterator[Example]:
             rows = coefficients.reshape(count, degree + 1, *shape)
             yield f"poly of degree {degree}, {count} pieces, shape {shape}", poly(times, rows, shape), _NOTHING
             end = [chance.uniform(-2, 2) for _ in range(width)]
-            yield f"the same {degree} {count} {shape} with an end", poly(times, rows, shape, end), _NOTHING
+            yield (
+                f"the same of degree {degree}, {count} pieces, {shape}, with an end",
+                poly(times, rows, shape, end),
+                _NOTHING,
+            )
     fitted = {"kind": "poly", "times": [0, 1], "coefficients": coarse(np.arange(40) / 7.0), "degree": 3, "shape": [10]}
     yield "poly of float32", fitted, _NOTHING
     yield "poly far from zero", poly([1e6, 1e6 + 0.125, 1e6 + 1], [[1, 1e-3], [2, 1e9]], [], 7.0), _NOTHING
@@ -172,8 +179,9 @@ def _expressions() -> Iterator[Example]:
         yield f"expression {name} of vectors", vector, _NOTHING
         yield f"expression {name} of a vector and a number", expr([name, ["vec", 1, -2, 3.5], _TIME]), _NOTHING
     infinite = ["/", 1, 0]
-    for name, a, b in (("**", 1, ["-", infinite, infinite]), ("**", -1, infinite), ("min", 1, ["/", 0, 0])):
-        yield f"expression {name} of what is no number", expr([name, a, b]), _NOTHING
+    yield "expression ** of what is no number", expr(["**", 1, ["-", infinite, infinite]]), _NOTHING
+    yield "expression ** to the infinite", expr(["**", -1, infinite]), _NOTHING
+    yield "expression min of what is no number", expr(["min", 1, ["/", 0, 0]]), _NOTHING
     yield (
         "expression % of the infinite",
         expr(["vec", ["%", -5, infinite], ["%", 5, infinite], ["%", infinite, 5]]),
@@ -186,6 +194,8 @@ def _expressions() -> Iterator[Example]:
     yield "expression where by element", expr(choice), _NOTHING
     mode = ["where", ["==", ["param", "mode"], "fast"], "hare", "snail"]
     yield "expression of strings", expr(mode), [{"mode": "fast"}, {"mode": "slow"}]
+    codes = [{"tint": code} for code in ("#ff8000", "#f80", "#0F08", "#12345678", "red", "#ff80000")]
+    yield "expression rgba", expr(["rgba", ["param", "tint"]]), codes
     yield (
         "expression of truth",
         expr(["+", ["param", "on"], ["*", 2, ["not", ["param", "on"]]]]),

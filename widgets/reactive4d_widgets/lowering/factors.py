@@ -9,7 +9,7 @@ from reactive4d.geometry import transforms
 from reactive4d.signals.rotations import quaternion_matrices
 from reactive4d_widgets.lowering.numerals import Array
 
-__all__ = ["factor_matrix", "turned"]
+__all__ = ["OPERATIONS", "factor_matrix", "turned"]
 
 _ORIGIN = (0.0, 0.0, 0.0)
 
@@ -48,7 +48,7 @@ def _aimed(before: Array, target: Any, up: Any, forward: str) -> Array:
     return _placed(turn, position - turn @ position)
 
 
-_OPERATIONS: Final[dict[str, Callable[[Mapping[str, Any], Array], Any]]] = {
+OPERATIONS: Final[dict[str, Callable[[Mapping[str, Any], Array], Any]]] = {
     "translate": lambda v, _: transforms.translation(v["offset"]),
     "rotate": lambda v, _: transforms.rotation(np.radians(v["angle"]), v["axis"], center=v.get("center", _ORIGIN)),
     "orient": lambda v, _: transforms.rotation_about(v["rotation"], center=v.get("center", _ORIGIN)),
@@ -76,6 +76,6 @@ def factor_matrix(operation: str, values: Mapping[str, Any], before: Array) -> A
     >>> factor_matrix("translate", {"offset": [1, 2, 3]}, np.eye(4))[:3, 3]
     array([1., 2., 3.])
     """
-    if operation not in _OPERATIONS:
+    if operation not in OPERATIONS:
         raise ValueError(f"{operation!r} is no factor")
-    return _OPERATIONS[operation](values, before)
+    return OPERATIONS[operation](values, before)

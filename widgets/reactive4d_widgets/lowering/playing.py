@@ -19,7 +19,7 @@ from reactive4d_widgets.lowering.calculating import calculate
 from reactive4d_widgets.lowering.factors import factor_matrix
 from reactive4d_widgets.lowering.numerals import Array, array_of
 
-__all__ = ["play", "sized"]
+__all__ = ["KINDS", "play", "sized"]
 
 Track: TypeAlias = dict[str, Any]
 Resolve: TypeAlias = Callable[[str], Any]
@@ -62,7 +62,7 @@ class _Player:
 
     def play(self, track: Track, t: float) -> Any:
         kind = track["kind"]
-        method = _KINDS.get(kind)
+        method = KINDS.get(kind)
         if method is None:
             raise ValueError(f"{kind!r} is no kind of track")
         return method(self, track, t)
@@ -151,7 +151,7 @@ def _scalar(value: Any) -> Any:
     return float(value) if np.ndim(value) == 0 else value
 
 
-_KINDS: Final[dict[str, Callable[[_Player, Track, float], Any]]] = {
+KINDS: Final[dict[str, Callable[[_Player, Track, float], Any]]] = {
     "const": _Player.const,
     "ref": _Player.ref,
     "poly": _Player.poly,
