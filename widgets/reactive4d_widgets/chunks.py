@@ -3,9 +3,9 @@
 Three encodings. **raw** keeps every bit: the arrays one after another, little-endian, all first bytes of their items,
 all second bytes, and so on. **u16** keeps floats to within 1/131070 of the range of their column: whole numbers from 0
 to 65535, of each array the differences to the array before (of the first: to the row before), all low bytes, all high
-bytes. **u16s** is the same for surfaces that deform, where neighbours move alike: of the differences to the array
-before those to the row before, and small ones of either sign as small numbers. All are deflated (RFC 1951) and written
-in base 64.
+bytes. **u16s** is the same for surfaces that deform, where neighbours move alike: of each array the differences to
+where it would be if it moved on as before, of these the differences to the row before, and small ones of either sign as
+small numbers. All are deflated (RFC 1951) and written in base 64.
 
 A reference names an array as it was before any encoding.
 """
@@ -120,6 +120,7 @@ def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
         deltas = deltas.reshape(len(refs), width, rows)
         if encoding == "u16s":
             deltas = np.cumsum(_unzigzag(deltas), axis=2, dtype=np.uint16)
+            deltas[1:] = np.cumsum(deltas[1:], axis=0, dtype=np.uint16)
         elif len(refs):
             deltas[0] = np.cumsum(deltas[0], axis=1, dtype=np.uint16)
         steps = np.cumsum(deltas, axis=0, dtype=np.uint16)
@@ -159,11 +160,12 @@ def _deltas(steps: NDArray[np.uint16]) -> NDArray[np.uint16]:
 
 
 def _differences(steps: NDArray[np.uint16]) -> NDArray[np.uint16]:
-    """Of each array to the one before, and of these to the row before."""
-    moved = steps.copy()
-    moved[1:] -= steps[:-1]
-    differences = moved.copy()
-    differences[:, :, 1:] -= moved[:, :, :-1]
+    """Of each array to where the two before it point, and of these to the row before."""
+    off = steps.copy()
+    off[1:] -= steps[:-1]
+    off[2:] -= steps[1:-1] - steps[:-2]
+    differences = off.copy()
+    differences[:, :, 1:] -= off[:, :, :-1]
     return differences
 
 

@@ -50,13 +50,13 @@ def test_the_bytes_are_those_of_the_wire() -> None:
 
 
 def test_the_bytes_of_a_smooth_chunk() -> None:
-    """By hand: 0, 65535; then 32768, 65535."""
-    arrays = [np.float32([[0.0], [1.0]]), np.float32([[0.5], [1.0]])]
+    """By hand: 0, 65535; then 32768, 65535; then again."""
+    arrays = [np.float32([[0.0], [1.0]]), np.float32([[0.5], [1.0]]), np.float32([[0.5], [1.0]])]
     chunk = encode(arrays, bounds=(np.zeros(1), np.ones(1)), smooth=True)
     assert chunk["encoding"] == "u16s"
     data = zlib.decompress(base64.b64decode(chunk["data"]), -15)
-    # Of each array to the one before: 0, -1; -32768, 0. Of these to the row before: 0, -1; -32768, -32768.
-    assert data == bytes([0x00, 0x01, 0xFF, 0xFF]) + bytes([0x00, 0x00, 0xFF, 0xFF])
+    # To where it would be: 0, -1; -32768, 0; -32768, 0. Of these to the row before: 0, -1; -32768, -32768; the same.
+    assert data == bytes([0x00, 0x01, 0xFF, 0xFF, 0xFF, 0xFF]) + bytes([0x00, 0x00, 0xFF, 0xFF, 0xFF, 0xFF])
 
 
 def test_a_motion_of_many_points_is_small() -> None:

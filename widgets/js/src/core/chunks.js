@@ -4,8 +4,8 @@
  * `raw` is byte-shuffled: all first bytes, all second bytes, and so on. `u16` has whole numbers from 0 to 65535 between
  * `lo` and `hi` of each column, in the order array, column, row; of each array the differences to the one before (of
  * the first: to the row before), all low bytes and then all high ones. `u16s` is for surfaces that deform: of each
- * array the differences to the one before (the first: to zeros), and of these to the row before, small ones of either
- * sign as small numbers. All are deflated (RFC 1951), in base 64.
+ * array the differences to where it would be if it moved on as before, and of these to the row before, small ones of
+ * either sign as small numbers. All are deflated (RFC 1951), in base 64.
  */
 import { list, object, oneOf, own, ref, refuse, row, whole } from "./checks.js";
 import { WireError } from "./errors.js";
@@ -100,6 +100,7 @@ function spread(planes, shape, count, [lo, hi], smooth) {
   const size = rows * columns;
   const half = count * size;
   const steps = new Uint16Array(size);
+  const speeds = new Uint16Array(size);
   const arrays = [];
   for (let one = 0, i = 0; one < count; one++) {
     const made = new Float32Array(size);
@@ -111,7 +112,8 @@ function spread(planes, shape, count, [lo, hi], smooth) {
       for (let r = 0, to = column; r < rows; r++, at++, i++, to += columns) {
         const delta = planes[i] | (planes[half + i] << 8);
         last = smooth ? last + ((delta >>> 1) ^ -(delta & 1)) : (one === 0 ? last : steps[at]) + delta;
-        steps[at] = smooth ? steps[at] + last : last; // modulo 65536, as these arrays are
+        if (smooth && one > 0) speeds[at] += last;
+        steps[at] = smooth && one > 0 ? steps[at] + speeds[at] : last; // modulo 65536, as these arrays are
         made[to] = low + (steps[at] / 65535) * range;
       }
     }

@@ -25,16 +25,15 @@ test("points of 16 bits come back to half a step of their range", async () => {
 });
 
 test("arrays whose neighbours move alike come back as Python packed them", async () => {
+  const refs = [0, 1, 2, 3].map((k) => String(k).padStart(32, "0"));
   const made = await decode({
-    refs: ["6ef3cf5598d3cd7b0975b1640c1540fd", "8a8719fbcd87dc3ec8d550c7b3f42527", "eb27c9fb7a79abbe3fe03672ca80ae58"],
-    dtype: "f32", shape: [7, 2], encoding: "u16s",
-    lo: [-4.794621467590332, -3.0], hi: [4.946791172027588, 9.0],
-    data: "Y1C4cve77CQGCFDw3ih5a0MTw6pVa4DoCpizmwHEWbXqz13Bk69NN0FV3j19W2nbc2cGLTAQBHPmQXkA",
+    refs, dtype: "f32", shape: [7, 2], encoding: "u16s", lo: [-4.794621467590332, -3], hi: [4.946791172027588, 15],
+    data: "Y1C4cve77CQGCFDw3ih5a0MTQ1FRQVFRkXfqjC/XdG0ZGBhZGBgZNoI5vkAOIyMTw5+7gidfm26C6rt7+rbStufODDJgcFpg5w2DJY+gcrfBnAAoDwA=",
   });
   [...made.values()].forEach(({ array }, k) => {
     for (let i = 0; i < 7; i++) {
       assert.ok(Math.abs(array[2 * i] - 5 * Math.sin(i + k)) <= 1e-4);
-      assert.ok(Math.abs(array[2 * i + 1] - (i * k - 3)) <= 1e-4);
+      assert.ok(Math.abs(array[2 * i + 1] - (i * k - 3)) <= 2e-4);
     }
   });
 });
