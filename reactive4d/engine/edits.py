@@ -62,6 +62,14 @@ def set_content(source: "Source", content: Any) -> None:
             engine.undo.append((source, old, source.stamps, spans))
         _keep(source)
         _apply(engine, source, content, stamps, spans)
+        if engine.owner is None and engine.listeners:
+            _tell(engine)
+
+
+def _tell(engine: "Engine") -> None:
+    """Tell those who listen that something was published; the lock is held."""
+    for listener in engine.listeners:
+        listener()
 
 
 def _remembered(source: "Source", content: Any) -> Stamps | None:
@@ -128,6 +136,8 @@ def _roll_back(engine: "Engine", begun: int) -> None:
 def _leave(engine: "Engine", *, outermost: bool) -> None:
     if outermost:
         engine.owner = None
+        if engine.listeners and engine.undo:
+            _tell(engine)
         engine.undo.clear()
         if engine.waiting:
             CHANGED.notify_all()

@@ -65,6 +65,7 @@ class Engine:
         self.freeze = freeze
         self.logs: list[Log] = []
         self.hear: Callable[[Any], None] = self._tell_all
+        self.listeners: tuple[Callable[[], None], ...] = ()
         self.stamp: Callable[[], int] = itertools.count(1).__next__
         self.epoch = 0  # edits so far, and whatever else everybody is to take note of
         self.clock = 0  # answers stored so far
@@ -208,6 +209,35 @@ class Engine:
         Inside, this thread sees what it set; other threads go on with what they remember, or wait for the end.
         """
         return edits.transaction(self)
+
+    def listen(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Have somebody told whenever an edit, or a transaction of edits, was published; what it returns ends that.
+
+        Who listens is told while the lock is held, on the thread that edits: it takes note, and asks later.
+
+        >>> from reactive4d.engine import Engine, Source
+        >>> engine, told = Engine(), []
+        >>> length = Source(1.0, engine=engine)
+        >>> stop = engine.listen(lambda: told.append("edited"))
+        >>> with engine.transaction():
+        ...     length.set_content(2.0)
+        ...     length.set_content(3.0)
+        >>> stop()
+        >>> length.set_content(4.0)
+        >>> told
+        ['edited']
+        """
+
+        def heard() -> None:
+            listener()
+
+        def stop() -> None:
+            with LOCK:
+                self.listeners = tuple([other for other in self.listeners if other is not heard])
+
+        with LOCK:
+            self.listeners = (*self.listeners, heard)
+        return stop
 
     # -- remembering -----------------------------------------------------------------------------------------------
 
