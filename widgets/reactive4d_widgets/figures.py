@@ -1,6 +1,7 @@
 """Figures: one figure of a page: its table, its poster, and how it stands in the page's HTML."""
 
 import base64
+import io
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -151,8 +152,9 @@ class Shown:
             return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'
         camera = self._camera(scene.at(t, **given))
         bounds = self.table.manifest["bounds"]
-        data = poster(self.thing, t=t, size=SIZE, camera=camera, parameters=given, bounds=bounds)
-        return f'width="{width}" height="{height}" src="data:image/png;base64,{base64.b64encode(data).decode("ascii")}"'
+        kind, data = _lightest(poster(self.thing, t=t, size=SIZE, camera=camera, parameters=given, bounds=bounds))
+        source = f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
+        return f'width="{width}" height="{height}" src="{source}"'
 
     def _camera(self, frame: Any) -> Any:
         """From where the viewer looks at first: a reader's camera, the scene's, or the view that holds everything."""
@@ -163,6 +165,17 @@ class Shown:
             return None
         view = self.table.manifest["view"]
         return {key: view[key] for key in ("position", "target", "up", "fov")}
+
+
+def _lightest(png: bytes) -> tuple[str, bytes]:
+    """A picture as a page carries it: as WebP where that is known here, which takes a fourth of the bytes."""
+    from PIL import Image, features
+
+    if not features.check("webp"):
+        return "png", png
+    file = io.BytesIO()
+    Image.open(io.BytesIO(png)).save(file, "WEBP", quality=88, method=6)
+    return ("webp", file.getvalue()) if file.tell() < len(png) else ("png", png)
 
 
 def _formatted(value: Any, spec: str, unit: str) -> str:

@@ -28,7 +28,8 @@ test("arrays whose neighbours move alike come back as Python packed them", async
   const refs = [0, 1, 2, 3].map((k) => String(k).padStart(32, "0"));
   const made = await decode({
     refs, dtype: "f32", shape: [7, 2], encoding: "u16s", lo: [-4.794621467590332, -3], hi: [4.946791172027588, 15],
-    data: "Y1C4cve77CQGCFDw3ih5a0MTQ1FRQVFRkXfqjC/XdG0ZGBhZGBgZNoI5vkAOIyMTw5+7gidfm26C6rt7+rbStufODDJgcFpg5w2DJY+gcrfBnAAoDwA=",
+    data: "Y1C4cve77CQGCFDw3ih5a0MTQ1FRQVFRkXfqjC/XdG0ZGBhZGBgZNoI5vkAOIyMTw5+7gidfm26C6rt7" +
+      "+rbStufODDJgcFpg5w2DJY+gcrfBnAAoDwA=",
   });
   [...made.values()].forEach(({ array }, k) => {
     for (let i = 0; i < 7; i++) {
