@@ -6,6 +6,7 @@ from reactive4d.engine import Computed, Engine, Source
 
 
 def test_an_edit_is_told_once_and_no_edit_is_not() -> None:
+    """Two listeners; one of them stops."""
     engine, told = Engine(), list[str]()
     length = Source(1.0, engine=engine)
     stop = engine.listen(lambda: told.append("a"))
@@ -19,6 +20,7 @@ def test_an_edit_is_told_once_and_no_edit_is_not() -> None:
 
 
 def test_a_transaction_is_told_when_it_is_published_and_not_if_it_was_undone() -> None:
+    """One in another is a part of that one."""
     engine, told = Engine(), list[float]()
     length, width = Source(1.0, engine=engine), Source(1.0, engine=engine)
     engine.listen(lambda: told.append(length.content + width.content))
@@ -42,6 +44,7 @@ def test_a_transaction_is_told_when_it_is_published_and_not_if_it_was_undone() -
 
 
 def test_asking_is_not_told() -> None:
+    """Answers are no edits."""
     engine, told = Engine(), list[str]()
     length = Source(1.0, engine=engine)
     engine.listen(lambda: told.append("edited"))
