@@ -170,6 +170,22 @@ def test_borders_may_become_known_on_the_way():
     assert play(made.track, 3.0) == 4.0
 
 
+def test_what_is_not_finite_is_not_fitted():
+    """No such number travels."""
+    assert fit(lambda t: np.where(t > 3.0, np.nan, t), 0.0, 10.0, tolerance=1e-4) is None
+    assert fit(lambda t: np.full(len(t), np.inf), 0.0, 10.0, tolerance=1e-4) is None
+    assert fit_matrix(lambda t: np.full((len(t), 4, 4), np.inf), 0.0, 1.0, size=1.0) is None
+    assert fit_matrix(lambda t: np.zeros((len(t), 3, 3)), 0.0, 1.0, size=1.0) is None
+
+
+def test_an_instant_is_a_constant():
+    """A span may be a single time."""
+    made = fit(np.cos, 2.0, 2.0, tolerance=1e-4)
+
+    assert made is not None
+    assert made.track == {"kind": "const", "value": math.cos(2.0)}
+
+
 def quaternions(rotations):
     """(n, 4) of rotations."""
     return np.array([rotation.as_quaternion() for rotation in rotations])

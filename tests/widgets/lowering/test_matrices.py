@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import reactive4d as r4
 from reactive4d_widgets.lowering import lower, lower_matrix, play, sized
@@ -102,8 +104,8 @@ def test_parameters_stay_parameters():
     bob.translate(r4.vec(0, 0, -length))
     bob.rotate(angle * np.cos(np.sqrt(9.81 / length) * T), axis="y")
 
-    for given in ({"length": 1.0, "angle": 20.0}, {"length": 0.3, "angle": -75.0}):
-        track = assert_agrees(bob, **given)
+    for values in ({"length": 1.0, "angle": 20.0}, {"length": 0.3, "angle": -75.0}):
+        track = assert_agrees(bob, **values)
     assert "length" in str(track)
     assert "length" not in str(lower_matrix(bob, {"length": 0.3}))
 
@@ -252,6 +254,31 @@ def test_looking_after_a_deformation_is_not_lowered():
     assert lower_matrix(box) is None
 
 
+moves = st.one_of(
+    st.builds(r4.Translate, st.sampled_from([WAY, (1, 2, 3), r4.keys({0: (0, 0, 0), 2: (1, 1, 1)})])),
+    st.builds(r4.Rotate, st.sampled_from([90 * T, 30, r4.keys({0: 0, 2: 90})]), axis=st.sampled_from(["x", (1, 2, 3)])),
+    st.builds(r4.Scale, st.sampled_from([2.0, 1 + T * T, (1, -2, 3)]), center=st.sampled_from([(0, 0, 0), (1, 1, 1)])),
+    st.builds(r4.Shear, st.sampled_from([(1, 0, 0), WAY]), axis=st.sampled_from(["x", "z"])),
+    st.builds(r4.LookAt, st.sampled_from([(9, 9, 9), WAY + (20, 0, 0)]), forward=st.sampled_from(["x", "-z", "y"])),
+    st.builds(r4.Orient, st.just(TURN)),
+    st.builds(r4.Mirror, st.sampled_from(["x", (1, 1, 0)])),
+)
+
+
+@given(own=st.lists(moves, max_size=4), groups=st.lists(st.lists(moves, max_size=2), max_size=2))
+def test_random_lists_of_transforms_agree(own, groups):
+    """In groups of groups."""
+    obj = r4.Box()
+    obj.changes.extend(own)
+    above = []
+    for changes in groups:
+        group = r4.Group([above[-1] if above else obj])
+        group.changes.extend(changes)
+        above.append(group)
+
+    assert_agrees(obj, above=tuple(above), times=(-0.7, 0.0, 0.4, 1.9, 2.0, 3.3))
+
+
 class TestPositions:
     """Where objects are, as others ask them."""
 
@@ -314,6 +341,20 @@ class TestPositions:
         ball.rotate(90 * T, enabled=T < 2)
 
         agree(ball.position, TIMES)
+
+
+def test_objects_that_follow_objects_are_lowered_as_far_as_is_sane(agree):
+    """A short chain is a sum; a long one is left to be fitted, and not to the interpreter's stack."""
+    first = r4.Sphere()
+    first.translate(r4.vec(T, 0, 0))
+    chain = [first]
+    for _ in range(300):
+        follower = r4.Sphere()
+        follower.translate(chain[-1].position + (0, 0, 1))
+        chain.append(follower)
+
+    agree(chain[8].position, TIMES)
+    assert lower(chain[-1].position) is None
 
 
 def test_a_rigid_motion_costs_nothing_per_frame():

@@ -139,3 +139,20 @@ def test_texts_are_held(agree):
     """A label's words."""
     agree(r4.Label(r4.keys({0: "one", 2: "two"}, kind="held")).text, (0.0, 1.0, 2.0, 5.0))
     assert lower(r4.Label("north").text) == {"kind": "const", "value": "north"}
+
+
+def test_words_that_a_setting_refuses_are_not_lowered(agree):
+    """Nor those of which nobody knows whether it does."""
+    kinds = r4.keys({0: "point", 2: "spot"}, kind="held")
+    mode = r4.Parameter("mode", "point")
+
+    agree(r4.Light(light_type=kinds).light_type, (0.0, 1.0, 2.0))
+    agree(r4.Light(light_type=r4.where(T < 1, "spot", kinds.delay(1))).light_type, (0.0, 1.0, 2.0, 4.0))
+    assert lower(r4.Light(light_type=r4.where(T < 1, "spot", "sun")).light_type) is None
+    assert lower(r4.Light(light_type=mode).light_type) is None
+    assert lower(r4.Label(mode).text) == {"kind": "expr", "tree": ["param", "mode"]}
+
+
+def test_whole_numbers_that_move_are_not_lowered():
+    """A setting of whole numbers would refuse what lies between."""
+    assert lower(r4.Sphere(segments=np.floor(T) + 8).segments) is None

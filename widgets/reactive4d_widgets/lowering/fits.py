@@ -17,6 +17,7 @@ from reactive4d_widgets.lowering.cubics import ENOUGH, Cubic, cubic, merged
 from reactive4d_widgets.lowering.measures import Measure, Numbers, Turns
 from reactive4d_widgets.lowering.numerals import Array, coarse, fine
 from reactive4d_widgets.lowering.panels import Panel, panels
+from reactive4d_widgets.lowering.terms import NotExactError
 
 __all__ = ["Breaks", "Fitted", "Sample", "fit", "fit_rotation", "fitted_cubics"]
 
@@ -101,7 +102,7 @@ class Pieces:
         """As it travels."""
         error = max(one.error for one in self.cubics)
         first = self.cubics[0].values[0]
-        if all(np.array_equal(one.values, np.broadcast_to(first, one.values.shape)) for one in self.cubics):
+        if all(one.hi == one.lo or not np.any(one.values != first) for one in self.cubics):
             value: Any = first.tolist()
             return Fitted({"kind": "const", "value": value[0] if self.is_scalar else value}, 0.0, self.asks, 1)
         table = np.array([one.powers for one in self.cubics])
@@ -129,8 +130,11 @@ def _rounding(table: Array, lengths: Array) -> float:
 
 
 def fitted_cubics(sample: Sample, start: float, stop: float, *, measure: Measure, breaks: Breaks = ()) -> Pieces | None:
-    """The cubics of a fit; see `fit`."""
-    return _Fitting(sample, start, stop, measure=measure, breaks=breaks).found()
+    """The cubics of a fit; see `fit`. None also where the samples are no numbers, or not finite."""
+    try:
+        return _Fitting(sample, start, stop, measure=measure, breaks=breaks).found()
+    except NotExactError:
+        return None
 
 
 class _Fitting:
@@ -152,6 +156,8 @@ class _Fitting:
         new = sorted(set(times) - self.known.keys())
         if new:
             values = np.asarray(self.sample(np.array(new)), dtype=np.float64)
+            if not np.isfinite(values).all():
+                raise NotExactError("numbers that are not finite")
             self.is_scalar = values.ndim == 1
             for t, value in zip(new, values.reshape(len(new), -1), strict=True):
                 self.known[t] = value

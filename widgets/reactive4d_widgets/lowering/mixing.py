@@ -15,7 +15,7 @@ from reactive4d_widgets.lowering.fits import Fitted, Sample, fit, fit_rotation
 from reactive4d_widgets.lowering.numerals import Array
 from reactive4d_widgets.lowering.objects import composed, flattened, lists, over_times, table_of
 from reactive4d_widgets.lowering.products import Factor, factors_of
-from reactive4d_widgets.lowering.rigid import PRECISE, TURN, fit_matrix
+from reactive4d_widgets.lowering.rigid import PRECISE, SMALLEST, TURN, fit_matrix
 from reactive4d_widgets.lowering.terms import NotExactError, Term, Track, constant, of_track
 
 __all__ = ["Mixing"]
@@ -113,7 +113,7 @@ class Mixing:
 
 
 _TOLERANCES: dict[str, Callable[[float], float]] = {
-    "length": lambda size: PRECISE * size,
+    "length": lambda size: PRECISE * max(size, SMALLEST),
     "angle": lambda size: np.degrees(TURN),
     "share": lambda size: PRECISE,
     "rotation": lambda size: TURN,

@@ -8,11 +8,13 @@ from reactive4d_widgets.lowering.fits import Breaks, Fitted, Pieces, Sample, fit
 from reactive4d_widgets.lowering.measures import Numbers, Turns
 from reactive4d_widgets.lowering.numerals import Array
 from reactive4d_widgets.lowering.polar import parts_of
+from reactive4d_widgets.lowering.terms import NotExactError
 
-__all__ = ["PRECISE", "TURN", "fit_matrix"]
+__all__ = ["PRECISE", "SMALLEST", "TURN", "fit_matrix"]
 
 PRECISE = 1e-4
 TURN = 1e-3  # radians
+SMALLEST = 1e-6  # metres: nothing is seen of a scene that is smaller
 
 
 def fit_matrix(sample: Sample, start: float, stop: float, *, size: float, breaks: Breaks = ()) -> Fitted | None:
@@ -46,7 +48,7 @@ def fit_matrix(sample: Sample, start: float, stop: float, *, size: float, breaks
 
 
 def _measures(size: float) -> list[tuple[str, Numbers | Turns]]:
-    measures = (Numbers(PRECISE * size), Turns(TURN), Numbers(PRECISE))
+    measures = (Numbers(PRECISE * max(size, SMALLEST)), Turns(TURN), Numbers(PRECISE))
     return list(zip(("translation", "rotation", "stretch"), measures, strict=True))
 
 
@@ -69,7 +71,10 @@ class _Matrices:
         def sample(times: Array) -> Any:
             new = [t for t in times.tolist() if t not in self.known]
             if new:
-                parts = parts_of(np.asarray(self.sample(np.array(new)), dtype=np.float64).reshape(-1, 4, 4))
+                matrices = np.asarray(self.sample(np.array(new)), dtype=np.float64)
+                if matrices.shape[1:] != (4, 4) or not np.isfinite(matrices).all():
+                    raise NotExactError("matrices that are not finite, or none")
+                parts = parts_of(matrices)
                 stretch = np.where(np.abs(parts.stretch - _UNSTRETCHED) < 1e-9, _UNSTRETCHED, parts.stretch)
                 for t, *row in zip(new, parts.translation, parts.rotation, stretch, strict=True):
                     self.known[t] = dict(zip(("translation", "rotation", "stretch"), row, strict=True))

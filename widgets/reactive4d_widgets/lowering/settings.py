@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Reference, Setting, Text, Vector
+from reactive4d.model.settings import Choice, Flag, Float, Held, Paint, Reference, Setting, Text, Vector
 from reactive4d.signals.colors import color
+from reactive4d.signals.trees import is_a
 from reactive4d_widgets.lowering.elementary import vector
 from reactive4d_widgets.lowering.numerals import array_of
 from reactive4d_widgets.lowering.ranges import Bounds, range_of
@@ -13,6 +14,7 @@ from reactive4d_widgets.lowering.terms import (
     CODE,
     HELD,
     NUMBER,
+    ROTATION,
     NotExactError,
     Term,
     applied,
@@ -24,7 +26,7 @@ from reactive4d_widgets.lowering.terms import (
     track_in,
 )
 
-__all__ = ["conformed"]
+__all__ = ["conformed", "words_of"]
 
 _TRUTHS = ("<", "<=", ">", ">=", "==", "!=", "not", "and", "or")
 
@@ -52,10 +54,40 @@ def conformed(term: Term, setting: Setting[Any], bounds: Bounds) -> Term:
     if isinstance(setting, Paint):
         return _paint(term, setting, bounds)
     if isinstance(setting, Text | Choice):
-        _expect(term.shape == HELD, setting)
-        return term
-    _expect(isinstance(setting, Held | Reference) and not isinstance(setting, Integer), setting)
+        return _words(term, setting)
+    plain = isinstance(setting, Held) and (setting.accept is None or term.shape == ROTATION)
+    _expect(plain or isinstance(setting, Reference), setting)
     return term
+
+
+def _words(term: Term, setting: Setting[Any]) -> Term:
+    """Strings; where not any will do, all that there may be are tried."""
+    _expect(term.shape == HELD, setting)
+    words = words_of(term.tree)
+    if words is None:
+        _expect(isinstance(setting, Text), setting)
+    for word in words or ():
+        setting.check(word)
+    return term
+
+
+def words_of(tree: Any) -> list[Any] | None:
+    """All held values that a tree may answer; None if that is not known.
+
+    >>> words_of(["where", ["<", ["time"], 1], "hare", ["track", {"kind": "stepped", "values": ["wolf", "snail"]}]])
+    ['hare', 'wolf', 'snail']
+    """
+    track = track_in(tree)
+    if track is not None and track["kind"] in ("stepped", "const"):
+        values: list[Any] = track["values"] if track["kind"] == "stepped" else [track["value"]]
+        return values
+    parts = tree[2:] if head(tree) == "where" else [tree[1]] if head(tree) == "at" else None
+    if track is not None and track["kind"] == "cases":
+        parts = [["track", part] for part in track["tracks"]]
+    if parts is None:
+        return [tree] if is_a(tree, str) else None
+    found = [words_of(part) for part in parts]
+    return None if None in found else [word for words in found for word in words or ()]
 
 
 def _expect(condition: bool, setting: Setting[Any]) -> None:

@@ -50,7 +50,8 @@ from reactive4d_widgets.lowering.warpings import followed_time, mapped_time
 __all__ = ["ChannelRule", "Lowering"]
 
 INF: Final = math.inf
-MOST_DEEP: Final = 120  # signals within signals
+MOST_DEEP: Final = 100  # signals within signals
+OF_OBJECT: Final = 5  # as many of these a channel of an object counts for
 
 # From an object and who lowers to the term of one of its channels.
 ChannelRule = Callable[[Any, "Lowering"], Term]
@@ -71,7 +72,7 @@ class Lowering:
         self.channels = channels
         self.bounds: dict[str, tuple[float, float]] = {}
         self._done: dict[int, tuple[Any, Term]] = {}
-        self._under: set[int] = set()
+        self._level = 0
 
     def of(self, x: Any) -> Term:
         """A signal, or a constant, as a term.
@@ -85,15 +86,16 @@ class Lowering:
         known = self._done.get(id(signal))
         if known is not None:
             return known[1]
-        if len(self._under) >= MOST_DEEP or id(signal) in self._under:
+        level = OF_OBJECT if is_a(signal, Channel) else 1
+        if self._level + level > MOST_DEEP:
             raise NotExactError(f"{signal.name} is nested too deep")
-        self._under.add(id(signal))
+        self._level += level
         try:
             term = self._lowered(signal)
         except Reactive4dError as error:
             raise NotExactError(f"{signal.name}: {error}") from error
         finally:
-            self._under.discard(id(signal))
+            self._level -= level
         self._done[id(signal)] = (signal, term)
         return term
 
