@@ -5,7 +5,8 @@ all second bytes, and so on. **u16** keeps floats to within 1/131070 of the rang
 to 65535, of each array the differences to the array before (of the first: to the row before), all low bytes, all high
 bytes. **u16s** is the same for surfaces that deform, where neighbours move alike: of each array the differences to
 where it would be if it moved on as before, of these the differences to the row before, and small ones of either sign as
-small numbers. All are deflated (RFC 1951) and written in base 64.
+small numbers. All are deflated (RFC 1951) and written in base 64. A fourth, **plain**, is what live kernels send: the
+arrays one after another, as they are (`live.vaults` writes it).
 
 A reference names an array as it was before any encoding.
 """
@@ -104,10 +105,15 @@ def decode(chunk: Mapping[str, Any]) -> dict[str, Array]:
     """
     refs, dtype, encoding = chunk["refs"], DTYPES.get(chunk["dtype"]), chunk["encoding"]
     rows, width = chunk["shape"]
-    if dtype is None or encoding not in ("raw", "u16", "u16s") or (encoding != "raw" and chunk["dtype"] != "f32"):
+    exact = encoding in ("raw", "plain")
+    if dtype is None or not (exact or (encoding in ("u16", "u16s") and chunk["dtype"] == "f32")):
         error = ShapeError(f"{encoding!r} of {chunk['dtype']!r} is no encoding")
-        raise hint(error, "raw of f32 or u32, u16 or u16s of f32")
+        raise hint(error, "raw or plain of f32 or u32, u16 or u16s of f32")
     shape = (len(refs), rows, width)
+    if encoding == "plain":
+        arrays = _plain(chunk["data"], math.prod(shape) * 4).view(dtype).reshape(shape)
+        arrays.setflags(write=False)
+        return dict(zip(refs, arrays, strict=True))
     data = _unpacked(chunk["data"], math.prod(shape) * (4 if encoding == "raw" else 2))
     if encoding == "raw":
         arrays = np.ascontiguousarray(data.reshape(4, -1).T).view(dtype).reshape(shape)
@@ -187,6 +193,16 @@ def _planes(numbers: NDArray[np.uint16]) -> bytes:
 def _packed(data: bytes) -> str:
     squeezer = zlib.compressobj(9, zlib.DEFLATED, -15)
     return base64.b64encode(squeezer.compress(data) + squeezer.flush()).decode("ascii")
+
+
+def _plain(data: str | bytes, size: int) -> NDArray[np.uint8]:
+    try:
+        found = base64.b64decode(data, validate=True) if isinstance(data, str) else data
+    except binascii.Error as error:
+        raise ShapeError(f"data: {error}") from None
+    if len(found) != size:
+        raise ShapeError(f"data: expected {size} bytes, got {len(found)}")
+    return np.frombuffer(found, np.uint8)
 
 
 def _unpacked(text: str, size: int) -> NDArray[np.uint8]:

@@ -5,7 +5,8 @@
  * `lo` and `hi` of each column, in the order array, column, row; of each array the differences to the one before (of
  * the first: to the row before), all low bytes and then all high ones. `u16s` is for surfaces that deform: of each
  * array the differences to where it would be if it moved on as before, and of these to the row before, small ones of
- * either sign as small numbers. All are deflated (RFC 1951), in base 64.
+ * either sign as small numbers. All are deflated (RFC 1951), in base 64. `plain` is what a live kernel sends: the
+ * arrays one after another, as they are. Where a message can carry bytes beside itself, `data` may be these.
  */
 import { list, object, oneOf, own, ref, refuse, row, whole } from "./checks.js";
 import { WireError } from "./errors.js";
@@ -17,7 +18,7 @@ import { bytes } from "./numbers.js";
 export const MOST_BYTES = 512 * 2 ** 20;
 
 const DTYPES = /** @type {const} */ (["f32", "u32"]);
-const ENCODINGS = /** @type {const} */ (["raw", "u16", "u16s"]);
+const ENCODINGS = /** @type {const} */ (["raw", "u16", "u16s", "plain"]);
 
 /**
  * @param {any} value a chunk as it travelled
@@ -35,14 +36,19 @@ export async function decode(value, path = "chunk") {
   const size = shape[0] * (shape[1] ?? 1);
   const count = refs.length * size;
   if (count * 4 > MOST_BYTES) throw new WireError(path, `expected at most ${MOST_BYTES} bytes, got ${count * 4}`);
-  const coarse = encoding !== "raw";
+  const coarse = encoding !== "raw" && encoding !== "plain";
   if (coarse && dtype !== "f32") refuse(`${path}.encoding`, "raw for u32", encoding);
   const width = coarse ? 2 : 4;
   const ranges = coarse ? rangesOf(chunk, path, shape[1] ?? 1) : [];
-  const planes = await inflate(bytes(own(chunk, "data"), `${path}.data`, MOST_BYTES), `${path}.data`, count * width);
+  const data = own(chunk, "data");
+  const sent = data instanceof Uint8Array ? data : bytes(data, `${path}.data`, MOST_BYTES);
+  const packed = /** @type {Uint8Array<ArrayBuffer>} */ (sent);
+  const planes = encoding === "plain"
+    ? asLong(packed, `${path}.data`, count * width)
+    : await inflate(packed, `${path}.data`, count * width);
   const arrays = coarse
     ? spread(planes, shape, refs.length, ranges, encoding === "u16s")
-    : refs.map((_, i) => unshuffled(planes, dtype, i * size, size));
+    : refs.map((_, i) => (encoding === "plain" ? cut : unshuffled)(planes, dtype, i * size, size));
   /** @type {Map<string, Blob>} */
   const made = new Map();
   refs.forEach((one, i) => {
@@ -80,6 +86,19 @@ async function inflate(packed, path, count) {
     at += part.length;
   }
   return made;
+}
+
+/** @param {Uint8Array<ArrayBuffer>} data @param {string} path @param {number} count */
+function asLong(data, path, count) {
+  if (data.length !== count) throw new WireError(path, `expected ${count} bytes, got ${data.length}`);
+  return data;
+}
+
+/** So many items from one on, of bytes that may lie anywhere. @param {Uint8Array<ArrayBuffer>} data
+ * @param {"f32"|"u32"} dtype @param {number} start @param {number} size */
+function cut(data, dtype, start, size) {
+  const items = data.slice(4 * start, 4 * (start + size));
+  return dtype === "f32" ? new Float32Array(items.buffer) : new Uint32Array(items.buffer);
 }
 
 /** So many items from one on. @param {Uint8Array} planes @param {"f32"|"u32"} dtype @param {number} start

@@ -31,10 +31,10 @@
  * @property {Ref[]} refs
  * @property {"f32"|"u32"} dtype
  * @property {number[]} shape of each: [n, k], or [n]
- * @property {"raw"|"u16"|"u16s"} encoding
- * @property {number[]} [lo] of each column; not of raw
+ * @property {"raw"|"u16"|"u16s"|"plain"} encoding
+ * @property {number[]} [lo] of each column; of u16 and u16s
  * @property {number[]} [hi]
- * @property {string} data base64 of deflate-raw
+ * @property {string|Uint8Array} data deflate-raw, or plain; base64 of it, or the bytes themselves
  */
 
 /**

@@ -16,6 +16,19 @@ test("raw arrays come back to the last bit", async () => {
   assert.deepEqual([blob?.array, blob?.shape, blob?.top], [indices.array, [4], 65536]);
 });
 
+test("plain arrays come back to the last bit, as base64 or as bytes that lie anywhere", async () => {
+  const refs = waves.map(({ ref }) => ref);
+  const whole = Buffer.concat(waves.map(({ array }) => Buffer.from(array.buffer)));
+  const shifted = new Uint8Array(whole.length + 3);
+  shifted.set(whole, 3);
+  for (const data of [whole.toString("base64"), shifted.subarray(3)]) {
+    const made = await decode({ refs, dtype: "f32", shape: [100, 3], encoding: "plain", data });
+    for (const { ref, array } of waves) assert.deepEqual(made.get(ref)?.array, array);
+  }
+  const short = { refs, dtype: "f32", shape: [101, 3], encoding: "plain", data: shifted };
+  await assert.rejects(decode(short), /data: expected 3636 bytes, got 3603/);
+});
+
 test("points of 16 bits come back to half a step of their range", async () => {
   const made = await decode(packU16(waves));
   for (const { ref, array } of waves) {

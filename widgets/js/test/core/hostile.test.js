@@ -130,7 +130,7 @@ test("a chunk that somebody has tampered with is refused, or unpacks to what it 
     let chunk = pick(random, chunks);
     if (random() < 0.5) chunk = mutated(chunk, random);
     else {
-      const bytes = Buffer.from(chunk.data, "base64");
+      const bytes = Buffer.from(String(chunk.data), "base64");
       bytes[Math.floor(random() * bytes.length)] = Math.floor(random() * 256);
       chunk = { ...chunk, data: bytes.toString("base64") };
     }
