@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from reactive4d.illustrations.controls import Control
-from reactive4d_widgets.coverings import Segment
+from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.sweeps import Asker
 
 __all__ = ["Readers", "described", "readers_of"]
@@ -41,12 +41,25 @@ def readers_of(segments: Sequence[Segment]) -> dict[str, list[str]]:
     return found
 
 
-def described(control: Control, segments: Sequence[Segment], asker: Asker, readers: Readers) -> dict[str, Any]:
-    """What a page knows of a parameter: its description, its grade and its stops."""
+def described(
+    control: Control,
+    segments: Sequence[Segment],
+    asker: Asker,
+    readers: Readers,
+    *,
+    depends: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """What a page knows of a parameter: its description, its grade and its stops, and how it depends on others."""
     found = control.description()
     name = control.name
     used = readers.get(name, ())
-    if control.constant or not used:
+    if depends:
+        found["depends"] = dict(depends)
+    if "constant" in found.get("depends", ()):
+        found |= {"grade": "free", "why": ""}
+    elif control.constant:
+        return found
+    if not used:
         return found
     stops = asker.stops.get(name)
     if stops is None or len(stops) == 1:

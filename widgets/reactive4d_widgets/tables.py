@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from reactive4d_widgets.blends import blended
-from reactive4d_widgets.channels import Channel
-from reactive4d_widgets.coverings import Coverer, Segment
+from reactive4d_widgets.coverings import Coverer
+from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.grades import described, readers_of
 from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.seats import Channel
+from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.sights import alternatives, outline, view
 from reactive4d_widgets.stores import Store
 
@@ -114,7 +116,11 @@ def tabulated(
         found = coverer.cover(channel)
         blended(channel, found, plan.asker, store, linear=plan.linear, size=size)
         segments.extend(found)
-    graded = [described(control, segments, plan.asker, readers_of(segments)) for control in plan.subject.controls]
+    depends = dependences(plan.subject)
+    graded = [
+        described(control, segments, plan.asker, readers_of(segments), depends=depends.get(control.name))
+        for control in plan.subject.controls
+    ]
     if begun is not None:
         begun("#alt")
     texts = alternatives(plan, size)
