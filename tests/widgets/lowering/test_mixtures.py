@@ -212,3 +212,28 @@ def test_rotations_are_fitted_as_rotations():
     for t in TIMES:
         q = play(made.track, t)
         assert abs(abs(np.dot(q / np.linalg.norm(q), smooth.at(t).as_quaternion())) - 1.0) < 1e-6
+
+
+def test_a_linked_object_is_fitted_by_its_own_factors():
+    """Those of them that are exact stay exact."""
+    arm, hand, odd = r4.Box(), r4.Sphere(), r4.Sphere()
+    arm.rotate(sway)
+    arm.translate(r4.vec(T, 0, 0))
+    hand.translate((1, 0, 0))
+    hand.apply(r4.LinkedXForm(arm))
+    made = matrix_track(hand, START, STOP, size=3.0)
+
+    assert_near(hand, made)
+    assert operations(made) == ["translate", "matrix"]
+    assert [factor["op"] for factor in made.track["factors"][1]["matrix"]["factors"]] == ["rotate", "translate"]
+    arm.rotate(90, enabled=r4.signal(lambda t: t < 3.25))
+    odd.apply(r4.LinkedXForm(arm))
+    assert_near(odd, matrix_track(odd, START, STOP, size=3.0))
+
+
+def test_what_is_rough_everywhere_leaves_the_matrix_to_samples():
+    """Each of its factors would be too rough, and so is the whole."""
+    ball = r4.Sphere()
+    ball.translate(r4.signal(lambda t: np.array([math.sin(1e5 * t), 0.0, 0.0])))
+
+    assert matrix_track(ball, START, STOP, size=1.0) is None
