@@ -5,7 +5,7 @@ Everything that the page can show is asked beforehand, each cell once, and writt
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -234,16 +234,29 @@ def _listed(wire: Any) -> Any:
     return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
 
 
+def _led(shown: list[Shown], text: str) -> None:
+    """Find out who follows whom: a figure may say so itself, or where it stands in the text."""
+    known = {figure.name: figure for figure in shown}
+    follows = written(text, [replace(figure.cast(), block=str) for figure in shown]).follows
+    for figure in shown:
+        figure.follow = follows.get(figure.name, figure.follow)
+        if figure.follow is not None:
+            if figure.follow not in known:
+                raise unknown(figure.follow, known, what="figure")
+            figure.leader = known[figure.follow]
+
+
 def _served(
     shown: list[Shown], text: str, target: Path, *, title: str | None, limit: float, lang: str, theme: str
 ) -> Report:
     """Write the file."""
     checked_options({"theme": theme}, {})
+    _led(shown, text)
     casts = [figure.cast() for figure in shown]
     prose = written(text, casts)
     called = title or prose.title or shown[0].title or shown[0].table.manifest["title"]
     # A figure that the text does not place stands above it, below the title.
-    others = [cast.block("", None) for cast in casts if cast.name not in prose.placed]
+    others = [cast.block("") for cast in casts if cast.name not in prose.placed]
     if prose.title is not None and others:
         first, _, rest = prose.html.partition("</h1>")
         body = joined([f"{first}</h1>", *others, rest.lstrip("\n")])

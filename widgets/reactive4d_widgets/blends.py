@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.errors import ShapeError
-from reactive4d_widgets.channels import Channel
-from reactive4d_widgets.coverings import Segment
 from reactive4d_widgets.lowering import play
+from reactive4d_widgets.seats import Channel
+from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.stores import Store
 from reactive4d_widgets.sweeps import Asker
 from reactive4d_widgets.tracks import PRECISE, SHADE

@@ -1,20 +1,16 @@
-"""Channels: what travels of a scene, each thing as a signal of its own.
+"""Channels: each thing that travels of a scene as a signal of its own.
 
 `node_of` gathers all that a viewer needs of an object, so it holds only while all of it does. Here each part stands
-alone: the colour of a thing that moves is asked once. A **seat** is a node's name with whoever sits there: mostly one
-object for ever, but the members of a group may vary with time, and then a seat is empty for a while, or taken by
-another object. A **channel** is one thing about a seat: `car/tyre0#matrix`.
+alone: the colour of a thing that moves is asked once.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from reactive4d.model.drawings import strokes
-from reactive4d.model.forms import Base, Form, Made
-from reactive4d.model.kinds.aggregates import Group, members_of
+from reactive4d.model.forms import Base, Made
 from reactive4d.model.objects import Object
 from reactive4d.model.palettes import sources_of
 from reactive4d.model.stacks import base_of
@@ -22,8 +18,9 @@ from reactive4d.model.surfaces import surface_part
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 from reactive4d.signals.sources import Parameter
+from reactive4d_widgets.seats import Channel, Seat, opens
 
-__all__ = ["ARRAYS", "HELD", "SETTINGS", "Channel", "Seat", "channels_of", "undeformed", "values_of"]
+__all__ = ["furnish", "undeformed", "values_of"]
 
 # By what is drawn: which channels a viewer wants besides `visible`, `drawn`, `matrix` and `color`.
 SETTINGS: Mapping[str, tuple[str, ...]] = {
@@ -36,167 +33,9 @@ ARRAYS: Mapping[str, tuple[str, ...]] = {
     "lines": ("points", "topology"),
     "points": ("points",),
 }
-HELD = frozenset({"drawn", "visible", "text", "light_type", "shadows", "reach"})  # not blended with anything
-
-Asked = Callable[[Signal[Any]], list[Any]]
 
 
-@dataclass(eq=False)
-class Seat:
-    """A node's name, and who sits there.
-
-    Attributes:
-        name: `car/tyre0`.
-        kind: the script name of the kind at the beginning.
-        object: who sits there all the time; None where that varies.
-        find: answers who sits there, an object or None; inside of an evaluation.
-        above: the seat of the group that it is in.
-        primitives: all that is ever drawn here: "mesh", "lines" and so on.
-        is_plain: its kind is the same for ever, and so is that of all groups above.
-        is_of_class: it is the kind of the object's class, too.
-    """
-
-    name: str
-    kind: str
-    object: Object | None
-    find: Callable[[], Object | None]
-    above: "Seat | None" = None
-    primitives: set[str] = field(default_factory=set[str])
-    is_plain: bool = True
-    is_of_class: bool = False
-    channels: dict[str, "Channel"] = field(default_factory=dict[str, "Channel"])
-
-    @property
-    def groups(self) -> tuple[Object, ...]:
-        """The groups that it is in, the innermost first."""
-        seat, found = self.above, list[Object]()
-        while seat is not None and seat.object is not None:
-            found.append(seat.object)
-            seat = seat.above
-        return tuple(found)
-
-    def __repr__(self) -> str:
-        return f"<Seat {self.name}>"
-
-
-@dataclass(eq=False)
-class Channel:
-    """One thing about a seat, as a signal.
-
-    Attributes:
-        name: `car/tyre0#matrix`; of the scene itself `#values.height`.
-        what: `matrix`.
-        signal: who answers it: as it travels, but for arrays, and for matrices (4, 4).
-        seat: whose it is; None for the scene's own.
-        source: a signal that says the same and of which more may be known; None where there is none.
-    """
-
-    name: str
-    what: str
-    signal: Signal[Any]
-    seat: Seat | None
-    source: Signal[Any] | None = None
-
-    @property
-    def is_array(self) -> bool:
-        """Whether its answers are too large to be written where they are used."""
-        return self.what in ("points", "topology", "paints")
-
-    @property
-    def is_held(self) -> bool:
-        """Whether there is nothing between two of its answers."""
-        return self.what in HELD
-
-    def __repr__(self) -> str:
-        return f"<Channel {self.name}>"
-
-
-def channels_of(items: Mapping[str, Object], asked: Asked) -> list[Seat]:
-    """The seats of a scene, in the order in which a frame names them, with their channels.
-
-    Args:
-        items: the objects of a scene by name.
-        asked: everything that a held signal ever says, over all times and parameter values that count.
-
-    >>> import reactive4d as r4
-    >>> wheel = r4.Cylinder()
-    >>> car = r4.Group(body=r4.Box(), wheel=wheel)
-    >>> seats = channels_of({"car": car}, lambda signal: [signal.at(0.0)])
-    >>> [seat.name for seat in seats]
-    ['car', 'car/body', 'car/wheel']
-    >>> sorted(seats[1].channels)
-    ['color', 'drawn', 'matrix', 'paints', 'points', 'topology', 'visible']
-    """
-    seats: list[Seat] = []
-    for name, obj in items.items():
-        seats.extend(_seats(Seat(name, "", obj, lambda obj=obj: obj), [obj], asked))
-    return seats
-
-
-def _seats(seat: Seat, objects: list[Object], asked: Asked) -> Iterator[Seat]:
-    """A seat, on which some objects sit one after the other, and those of its members."""
-    kinds = [kind for obj in objects for kind in asked(obj.kind)]
-    if not seat.kind:
-        seat.kind = kinds[0].script if kinds else "object"
-    forms = [form for obj in objects for form in asked(obj.form)]
-    seat.is_plain = seat.is_plain and len(set(kinds)) == 1 and seat.object is not None
-    seat.is_of_class = seat.is_plain and kinds[0] is type(seat.object)
-    grouping = [obj for obj in objects if any(kind.is_group for kind in asked(obj.kind))]
-    if grouping and (len(set(kinds)) > 1 or len(set(forms)) > 1):
-        seat.is_plain = False
-    for kind in kinds:
-        for form in forms:
-            seat.primitives.update(_primitives(kind, form))
-    _furnish(seat)
-    yield seat
-    names: dict[str, list[Object]] = {}
-    steady = seat.is_plain
-    for obj in grouping:
-        versions = asked(_members(obj))
-        steady = steady and len(versions) == 1
-        for members in versions:
-            for name, member in members:
-                found = names.setdefault(name, [])
-                if all(member is not other for other in found):
-                    found.append(member)
-    for name, members in names.items():
-        only = members[0] if len(members) == 1 and seat.object is not None else None
-        below = Seat(f"{seat.name}/{name}", "", only, _finder(seat, name), seat, is_plain=steady)
-        yield from _seats(below, members, asked)
-
-
-def _primitives(kind: type[Object], form: Form) -> tuple[str, ...]:
-    if kind.is_group and isinstance(form, Base):
-        return ("none",)
-    if form.part("faces") is not None:
-        return ("mesh",)
-    return ("lines",) if form.part("points") is not None else (kind.primitive,)
-
-
-def _members(obj: Object) -> Signal[Any]:
-    def answer(o: Object) -> Any:
-        return members_of(o, o.kind.now() if o.kind.now().is_group else Group) if _opens(o) else ()
-
-    return obj.channel("seats", answer)
-
-
-def _opens(obj: Object) -> bool:
-    """Whether a group's members are drawn one by one; inside of an evaluation."""
-    return obj.kind.now().is_group and isinstance(obj.form.now(), Base)
-
-
-def _finder(seat: Seat, name: str) -> Callable[[], Object | None]:
-    def find() -> Object | None:
-        group = seat.find()
-        return None if group is None else dict(_members(group).now()).get(name)
-
-    return find
-
-
-# -- the channels of a seat ------------------------------------------------------------------------------------------
-
-
-def _furnish(seat: Seat) -> None:
+def furnish(seat: Seat) -> None:
     """Give a seat its channels."""
     wanted = ["visible", "drawn", "matrix"]
     if seat.primitives - {"none", "camera"}:
@@ -224,6 +63,8 @@ def _signal(seat: Seat, what: str) -> tuple[Signal[Any], Signal[Any] | None]:
         return Function(lambda: _target(seat), name=name), _untouched(seat)
     if obj is None:
         return Function(lambda: _of(seat.find(), cell), name=name), None
+    if what == "points" and seat.is_plain and seat.primitives <= ARRAYS.keys():
+        return obj.points, None
     signal = cell(obj)
     return signal, (obj.attribute(what) if seat.is_of_class and own is None else None)
 
@@ -242,7 +83,7 @@ def _visible(seat: Seat) -> bool:
 
 def _opens_at(seat: Seat) -> bool:
     obj = seat.find()
-    return obj is not None and _opens(obj)
+    return obj is not None and opens(obj)
 
 
 def _matrix(seat: Seat) -> Any:

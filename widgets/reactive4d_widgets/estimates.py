@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from reactive4d.errors import PageTooLargeError, hint
-from reactive4d_widgets.channels import Channel
 from reactive4d_widgets.chunks import encode, extent
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.stores import measured
 
 __all__ = ["Share", "estimated", "refuse_if_too_large", "too_large"]

@@ -8,7 +8,7 @@ from html import escape
 from typing import Any
 
 from reactive4d.boxes import answer
-from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.errors import ParameterError, ShapeError, hint, unknown
 from reactive4d.illustrations import Bookmark
 from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.plans import Plan
@@ -75,6 +75,7 @@ class Shown:
         table: what was answered.
         source: the name of the figure whose data it shares; its own if it has its own.
         follow: the name of a figure with which it shares a point.
+        leader: that figure.
     """
 
     name: str
@@ -84,17 +85,36 @@ class Shown:
     table: Table
     source: str
     follow: str | None = None
+    leader: "Shown | None" = None
 
     @property
     def point(self) -> Mapping[str, Any]:
-        """Where it opens."""
-        if self.source == self.name:
-            return self.table.manifest["point"]
-        wires = {name: self.plan.controls[name].encode(value) for name, value in self.plan.opens.items()}
-        return {**self.table.manifest["point"], "time": self._time(), "parameters": wires}
+        """Where it opens: where its leader does, as far as both have the same parameters."""
+        own: dict[str, Any] = self.table.manifest["point"]
+        if self.source != self.name:
+            wires = {name: self.plan.controls[name].encode(value) for name, value in self.plan.opens.items()}
+            own = {**own, "time": self._within(self.plan.subject.point.time), "parameters": wires}
+        if self.leader is None or self.leader is self:
+            return own
+        theirs: dict[str, Any] = self.leader.table.manifest["point"]
+        shared = {n: w for n, w in theirs["parameters"].items() if n in own["parameters"] and self._holds(n, w)}
+        mine: dict[str, Any] = own["parameters"]
+        return {**own, "time": self._within(theirs["time"]), "parameters": {**mine, **shared}}
 
-    def _time(self) -> float:
-        return min(max(self.plan.subject.point.time, self.plan.span.start), self.plan.span.stop)
+    def _within(self, t: float) -> float:
+        return min(max(t, self.plan.span.start), self.plan.span.stop)
+
+    def _holds(self, name: str, wire: Any) -> bool:
+        """Whether a value that another figure has is one of this parameter."""
+        try:
+            self.plan.controls[name].decode(wire)
+        except ParameterError:
+            return False
+        return True
+
+    @property
+    def _values(self) -> dict[str, Any]:
+        return {name: self.plan.controls[name].decode(wire) for name, wire in self.point["parameters"].items()}
 
     def cast(self) -> Cast:
         """What the prose may name of it."""
@@ -111,7 +131,7 @@ class Shown:
             numbers,
             frozenset(entry["name"] for entry in self.table.manifest["parameters"]),
             frozenset(node["name"] for node in self.table.manifest["nodes"]),
-            lambda caption, follow: self.html(caption, follow or self.follow, self._played(played, "#alt")),
+            lambda caption: self.html(caption, self._played(played, "#alt")),
         )
 
     def _played(self, played: Playback, channel: str) -> Any:
@@ -122,15 +142,14 @@ class Shown:
         except RuntimeError:
             return None
 
-    def html(self, caption: str, follow: str | None, alt: str | None) -> str:
+    def html(self, caption: str, alt: str | None) -> str:
         """The figure as it stands in a page.
 
         Args:
             caption: HTML, which stands below it; nothing if it is empty.
-            follow: the name of the figure that it follows.
             alt: what its picture shows.
         """
-        attributes = {"name": self.name, "follow": follow}
+        attributes = {"name": self.name, "follow": self.follow}
         if self.source != self.name:
             link = Bookmark(self.point["time"], self.point["parameters"]).to_link()
             attributes.update({"source": self.source, "point": link, "title": self.title})
@@ -145,8 +164,7 @@ class Shown:
     def _picture(self) -> str:
         """The poster, as the attributes of an image."""
         width, height = SIZE
-        scene, t = self.plan.subject.scene, self.point["time"]
-        given = self.plan.opens
+        scene, t, given = self.plan.subject.scene, self.point["time"], self._values
         # Where something of the scene is an error there is no frame, and no picture.
         if not can_draw() or answer(scene.frame, t, **given).error is not None:
             return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'

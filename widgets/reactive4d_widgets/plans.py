@@ -9,7 +9,9 @@ from reactive4d.arrays import ARRAY
 from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
 from reactive4d.illustrations import Control, Subject, subject
 from reactive4d.model.reaches import key_times
-from reactive4d_widgets.channels import Channel, Seat, channels_of, values_of
+from reactive4d_widgets.channels import values_of
+from reactive4d_widgets.rosters import roster
+from reactive4d_widgets.seats import Channel, Seat
 from reactive4d_widgets.spans import Span, span_of
 from reactive4d_widgets.sweeps import Asker
 
@@ -45,7 +47,7 @@ class Plan:
         self.opens = dict(opens)
         self.controls: dict[str, Control] = {control.name: control for control in shown.controls}
         self.asker = Asker(span, base, stops)
-        self.seats: list[Seat] = channels_of(dict(shown.scene), self.asker.said)
+        self.seats: list[Seat] = roster(dict(shown.scene), self.asker.said)
         self.values: list[Channel] = values_of(shown.scene.signals)
 
     @property

@@ -33,14 +33,14 @@ class Cast:
         numbers: parameters and values: from a format to how it reads where the page opens.
         parameters: the names of those that are driven.
         nodes: names of objects.
-        block: from a caption (HTML) and the name of a figure to follow to the figure as HTML.
+        block: from a caption (HTML) to the figure as HTML.
     """
 
     name: str
     numbers: Mapping[str, Callable[[str], str]]
     parameters: frozenset[str]
     nodes: frozenset[str]
-    block: Callable[[str, str | None], str]
+    block: Callable[[str], str]
 
 
 @dataclass(slots=True)
@@ -51,11 +51,13 @@ class Written:
         html: of the body.
         title: the text of the first heading of the first rank; None without one.
         placed: the names of the figures that stand in it.
+        follows: which of them follows which.
     """
 
     html: str
     title: str | None = None
     placed: list[str] = field(default_factory=list[str])
+    follows: dict[str, str] = field(default_factory=dict[str, str])
 
 
 def written(text: str, casts: Iterable[Cast]) -> Written:
@@ -83,6 +85,7 @@ class _Composer:
     def __init__(self, casts: Mapping[str, Cast]) -> None:
         self.casts = casts
         self.order: list[str] = []  # figures that were placed so far
+        self.follows: dict[str, str] = {}
         self.slugs: set[str] = set()  # names of headings
         self.markdown = MarkdownIt("commonmark", {"html": False, "typographer": True})
         self.markdown.enable(["table", "strikethrough", "replacements", "smartquotes"])
@@ -115,7 +118,7 @@ class _Composer:
             made_of.append(token)
             i += 1
         made.html = self.markdown.renderer.render(made_of, self.markdown.options, env).rstrip("\n")
-        made.placed = list(self.order)
+        made.placed, made.follows = list(self.order), self.follows
         return made
 
     def _slug(self, title: str) -> str:
@@ -160,8 +163,10 @@ class _Composer:
             raise hint(error, 'as in ![…](twin "follow pendulum")')
         if follow is not None and follow[1] not in self.casts:
             raise unknown(follow[1], self.casts, what="figure")
+        if follow is not None:
+            self.follows[name] = follow[1]
         caption = self.markdown.renderer.render(self._inline(image.children or []), self.markdown.options, env)
-        return _token("figure", self.casts[name].block(caption, None if follow is None else follow[1]) + "\n")
+        return _token("figure", self.casts[name].block(caption) + "\n")
 
     # -- what stands in a sentence ---------------------------------------------------------------------------------
 

@@ -14,9 +14,9 @@ from reactive4d.geometry.transforms import transform_points
 from reactive4d.model.drawings import Points
 from reactive4d.model.nodes import Node
 from reactive4d_widgets.alternatives import Sight, described
-from reactive4d_widgets.channels import Seat
-from reactive4d_widgets.coverings import Segment
 from reactive4d_widgets.plans import Plan
+from reactive4d_widgets.seats import Seat
+from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.views import View, holding, outermost
 from reactive4d_widgets.writing import held
 

@@ -7,7 +7,7 @@ never read together no combination is asked.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from reactive4d.boxes import Answer, answer
@@ -41,6 +41,14 @@ class Box:
     is_instant: bool
     value: Any
     error: Exception | None
+
+    def saying(self, value: Any) -> "Box":
+        """The same box with another answer."""
+        return replace(self, value=value, error=None)
+
+    def failing(self, error: Exception) -> "Box":
+        """The same box with an error instead."""
+        return replace(self, value=None, error=error)
 
 
 @dataclass(slots=True)

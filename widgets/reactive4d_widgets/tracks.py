@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from reactive4d_widgets import lowering
-from reactive4d_widgets.channels import Channel
+from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.spans import Span
 
 __all__ = ["Cell", "Exact", "exact", "fitted", "parameters_in"]

@@ -238,22 +238,24 @@ def test_without_opengl_a_page_has_no_pictures_but_their_texts(tmp_path: Path) -
 
 
 def test_figures_of_one_class_share_their_data(tmp_path: Path) -> None:
-    """A twin that opens elsewhere names the first as its source; one that follows says whom."""
+    """A twin names the first as its source, and where it opens; one that follows opens where its leader does."""
     page = r4.Page(
         '![](one)\n\n![](two "follow one")\n\n{two.length}',
         one=Swing(),
         two=r4.Figure(Swing(length=1.5), title="The other"),
         three=ball(),
+        four=Swing(length=1.5),
     )
     read = seen(page.bake(tmp_path / "page.html", times=(0, 2), progress=False).path)
     assert sorted(read.data()) == ["one", "three"]
     by_name = {figure["name"]: figure for figure in read.all("r4d-figure")}
     assert by_name["one"] == {"name": "one"}
     assert by_name["two"] == {
-        "name": "two", "follow": "one", "source": "one", "point": "t=0&length=1.5", "title": "The other"
+        "name": "two", "follow": "one", "source": "one", "point": "t=0&length=1", "title": "The other"
     }  # fmt: skip
-    assert list(by_name) == ["three", "one", "two"]
-    assert "1.5" in re.findall(r"<r4d-number[^>]*>([^<]*)<", (tmp_path / "page.html").read_text(encoding="utf-8"))[0]
+    assert by_name["four"] == {"name": "four", "source": "one", "point": "t=0&length=1.5"}
+    assert list(by_name) == ["three", "four", "one", "two"]
+    assert "1" in re.findall(r"<r4d-number[^>]*>([^<]*)<", (tmp_path / "page.html").read_text(encoding="utf-8"))[0]
 
 
 def test_figures_that_cannot_share_have_their_own(tmp_path: Path) -> None:

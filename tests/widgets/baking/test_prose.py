@@ -16,7 +16,7 @@ def cast(name: str, parameters: tuple[str, ...] = (), nodes: tuple[str, ...] = (
         numbers,
         frozenset(parameters),
         frozenset(nodes),
-        lambda caption, follow: f"<r4d-figure name={name} follow={follow}>{caption}</r4d-figure>",
+        lambda caption: f"<r4d-figure name={name}>{caption}</r4d-figure>",
     )
 
 
@@ -60,10 +60,10 @@ def test_headings_can_be_linked_to() -> None:
 def test_figures_stand_alone_with_a_caption() -> None:
     """The caption may have numbers in it."""
     assert html("![A rod of {length} m](pendulum)") == (
-        '<r4d-figure name=pendulum follow=None>A rod of <r4d-number figure="pendulum" name="length">1.5</r4d-number> m'
-        "</r4d-figure>"
+        '<r4d-figure name=pendulum>A rod of <r4d-number figure="pendulum" name="length">1.5</r4d-number> m</r4d-figure>'
     )
-    assert html('![](twin "follow pendulum")', PENDULUM, TWIN) == "<r4d-figure name=twin follow=pendulum></r4d-figure>"
+    found = written('![](twin "follow pendulum")', [PENDULUM, TWIN])
+    assert (found.html, found.follows) == ("<r4d-figure name=twin></r4d-figure>", {"twin": "pendulum"})
 
 
 def test_a_name_belongs_to_the_nearest_figure_before_it() -> None:
