@@ -15,6 +15,7 @@ from .growth import growth
 from .instructions import instructions
 from .memory import memory
 from .modelling import modelling
+from .paging import paging
 from .reports import Section, conditions, data, markdown, text, verdicts
 from .runs import Run
 from .sampling import sampling
@@ -31,6 +32,7 @@ BENCHMARKS = {
     "sampling": sampling,
     "deforming": deforming,
     "modelling": modelling,
+    "pages": paging,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 
