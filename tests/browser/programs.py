@@ -32,7 +32,7 @@ TIMES = {"ex01_static_scene": (0.0, 1.0), "ex03_expression": (0.0, 6.0), "ex04_t
 PENDULUM = """
 # A pendulum
 
-It is {length} m long, and begins at {angle:.0f}°; the longer, the slower. [The bob](#bob) is red.
+It is {length} long, and begins at {angle:.0f}; the longer, the slower. [The bob](#bob) is red.
 
 ![Drag the bob.](pendulum)
 
