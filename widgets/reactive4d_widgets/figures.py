@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
-from reactive4d.boxes import answer
 from reactive4d.errors import ParameterError, ShapeError, hint, unknown
 from reactive4d.illustrations import Bookmark
 from reactive4d_widgets.displays import can_draw
@@ -166,7 +165,7 @@ class Shown:
         width, height = SIZE
         scene, t, given = self.plan.subject.scene, self.point["time"], self._values
         # Where something of the scene is an error there is no frame, and no picture.
-        if not can_draw() or answer(scene.frame, t, **given).error is not None:
+        if not can_draw() or self.plan.asker.ask(scene.frame, t, given).error is not None:
             return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'
         camera = self._camera(scene.at(t, **given))
         bounds = self.table.manifest["bounds"]
