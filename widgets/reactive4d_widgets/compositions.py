@@ -16,7 +16,7 @@ from reactive4d_widgets.creases import Split, split
 
 __all__ = ["Composition", "Label", "Strokes", "Surface", "composed"]
 
-DARKER = (0.4, 0.4, 0.4, 1.0)  # what the colour of an edge is beside its surface's
+DARKER = (0.62, 0.62, 0.62, 1.0)  # what the colour of an edge is beside its surface's
 Floats = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 Indices = NDArray[np.int64]
@@ -197,9 +197,20 @@ def _turned(normals: NDArray[np.float64], linear: NDArray[np.float64]) -> tuple[
 
 
 def _creases(node: Node, mesh: Mesh, cut: Split) -> Strokes:
+    """Edges, darker than what they are the edges of."""
     used, lines = np.unique(cut.edges, return_inverse=True)
     points = transform_points(node.matrix, mesh.points[used])
-    return Strokes(points, _plain(node, len(points), node.color * DARKER), lines.reshape(-1, 2))
+    paints = np.empty((len(mesh.points), 4))
+    paints[:] = node.color
+    painted = mesh.attributes.get("colors")
+    if painted is not None and len(painted) == len(mesh.faces):
+        weld = mesh.attributes.get("weld")
+        for corner in range(3):
+            own = mesh.faces[:, corner]
+            paints[own if weld is None else weld[own]] = painted
+    elif painted is not None:
+        paints[:] = painted
+    return Strokes(points, _bytes(paints[used] * DARKER), lines.reshape(-1, 2))
 
 
 def _strokes(node: Node, drawn: Lines, color: Any) -> Strokes:
