@@ -13,6 +13,12 @@ import reactive4d as r4
 FOLDER = Path(__file__).parent / "examples"
 
 
+@pytest.fixture(autouse=True)
+def beside_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A program may import the one that it goes on from."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+
+
 def run(name: str) -> dict[str, Any]:
     """The names that a program leaves."""
     return runpy.run_path(str(FOLDER / f"{name}.py"))
@@ -118,3 +124,18 @@ def test_the_pendulum_swings_as_its_reader_says():
     assert not parts & {"points", "faces", "surface"}, "the rod keeps its mesh while the angle is dragged"
     with pytest.raises(ValueError, match=r"'Pendulum.length' must be at most 2.0, not 3"):
         short.length = 3.0
+
+
+def test_a_long_pendulum_that_is_let_go_from_far_rises_most():
+    """The twelfth program: a measure over a grid of parameters and times, as a labelled dataset."""
+    left = run("ex12_sweep")
+    result = left["result"]
+    assert result.height.dims == ("length", "angle", "time")
+    assert dict(result.sizes) == {"length": 16, "angle": 2, "time": 501}
+    rise = result.height.max("time") - result.height.min("time")
+    assert rise.argmax(...) == {"length": 15, "angle": 1}
+    for length, angle in ((0.5, 10.0), (2.0, 45.0)):
+        wanted = length * (1 - math.cos(math.radians(angle)))
+        assert rise.sel(length=length, angle=angle).item() == pytest.approx(wanted, rel=1e-2)
+    frame = left["Pendulum"](length=1.1, angle=45.0).at(3.0)
+    assert result.height.sel(length=1.1, angle=45.0, time=3.0).item() == pytest.approx(frame["bob"].matrix[2, 3])
