@@ -106,7 +106,10 @@ class Checkpoint:
 
     def _begin(self) -> None:
         self._note()
-        for name, (dimensions, values, attrs) in coordinates(self.grid).items():
+        along = coordinates(self.grid)
+        # As xarray does: these are no answers.
+        self.group.attrs["coordinates"] = " ".join([name for name, (dims, _, _) in along.items() if dims != (name,)])
+        for name, (dimensions, values, attrs) in along.items():
             self._array(name, values.shape, values.shape, values.dtype, dimensions, attrs)[...] = values
         self._array("status", self.grid.shape, self.plan.block, np.dtype(np.int8), self._names, {"long_name": STATUS})
 
@@ -179,7 +182,7 @@ class Checkpoint:
             if encoded.kind is not None and kind is not None:
                 self._learn(name, kind)
                 block.data[name] = series(block.data.get(name), kind, kind, block.shape)
-                copied(encoded, kind, block.data[name][where], part.mask)
+                copied(encoded, kind, block.data[name][(*where, ...)], part.mask)
         block.status[where] = DONE if part.mask is None else np.where(part.mask, DONE, LEFT_OUT)
         codes = failures(part, self.errors)
         if codes is not None:

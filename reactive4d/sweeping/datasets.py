@@ -158,14 +158,16 @@ def dataset(
 
     names = [dimension.name for dimension in grid.dimensions]
     coords: dict[str, Any] = dict(coordinates(grid))
+    taken = [*coords, *described]
     variables: dict[str, Any] = {}
     for name, about in described.items():
         kind = kinds.get(name)
         if kind is None:
             variables[name] = names, np.full(grid.shape, np.nan), dict(about)
             continue
-        extra = extra_dimensions(name, kind, [*coords, *described])
-        coords.update({dimension: ((dimension,), list(labels)) for dimension, labels in extra.labels.items()})
+        extra = extra_dimensions(name, kind, taken)
+        for dimension, labels in extra.labels.items():
+            coords[dimension] = (dimension,), np.array(list(labels), object)
         variables[name] = [*names, *extra.names], finished(data[name], kind), dict(about)
     if errors.codes is not None:
         about = {"long_name": "what went wrong"}

@@ -70,7 +70,6 @@ class _Walk:
         self.memory = evaluator.memory
         self.context = context
         self.deadline = deadline
-        self.names: dict[str, Any] = {}
 
     def columns(self, roots: Sequence[Cell]) -> dict[Cell, Column]:
         """The answers of some signals, as far as they can be had for all points together."""
@@ -142,6 +141,8 @@ class _Walk:
         if any(column is _BROKEN for column in columns):
             return _BROKEN
         reads = NOTHING.union(*[column.reads for column in columns])
+        if len({None if axis is None else axis.name for axis in reads}) < len(reads):
+            return _BROKEN  # two parameters of one name: asking one by one tells that it is an error
         dimensions = tuple(sorted({d for column in columns for d in column.dimensions}))
         if not dimensions:
             return Column(_PENDING, (), reads)
@@ -176,8 +177,6 @@ class _Walk:
             return _BROKEN
 
     def _axis(self, axis: Any) -> Column:
-        if self.names.setdefault(axis.name, axis) is not axis:
-            raise ApartError  # perhaps it is an error: asking one by one will tell
         value, dimensions = self.context.along(axis)
         return Column(value, dimensions, frozenset([axis]))
 

@@ -107,7 +107,7 @@ class Grid:
         values: dict[str, Any] = {}
         for dimension, i in zip(self.dimensions, index, strict=True):
             for name, column in dimension.columns.items():
-                values[name] = self.levers[name].shown(column[i]) if name in self.levers else column[i]
+                values[name] = self.levers[name].shown(column[i]) if name in self.levers else float(column[i])
         return values
 
     def point(self, index: Sequence[int]) -> tuple[float, dict[str, Any]]:

@@ -198,7 +198,7 @@ class Counter:
         runs = sum(cell.runs for cell in self.cells)
         evaluated = runs - self.runs + rows - self.rows
         self.runs, self.rows = runs, rows
-        return evaluated, max(evaluated, visited * len(self.cells))
+        return evaluated, visited * len(self.cells)
 
     def _look(self) -> None:
         with LOCK:

@@ -38,7 +38,14 @@ class Probe:
     row: int
 
 
-def probe(grid: Grid, signals: Mapping[str, Cell], values: Mapping[str, Any], *, drawn: Collection[str] = ()) -> Probe:
+def probe(
+    grid: Grid,
+    signals: Mapping[str, Cell],
+    values: Mapping[str, Any],
+    *,
+    drawn: Collection[str] = (),
+    is_stored: bool = False,
+) -> Probe:
     """Ask the measures at a point or two.
 
     Args:
@@ -46,6 +53,7 @@ def probe(grid: Grid, signals: Mapping[str, Cell], values: Mapping[str, Any], *,
         signals: the measures.
         values: where the parameters stand that are not moved.
         drawn: the measures that are pictures.
+        is_stored: whether there are blocks that are stored as one piece, which must not take too long.
     """
     natural = plan_of(grid.shape, tuple(range(len(grid.shape))), grid.size)
     first = _visited(grid, natural)
@@ -57,6 +65,8 @@ def probe(grid: Grid, signals: Mapping[str, Cell], values: Mapping[str, Any], *,
     mixed = next((i for i, d in enumerate(grid.dimensions) if TIME in d.columns), None)
     order = best_order(grid.shape, readers_of(signals.values(), moved, time=mixed), time=clock)
     plan = plan_of(grid.shape, order, grid.size)
+    if not is_stored:
+        return Probe(plan, kinds, row)
     second = _visited(grid, plan, after=plan.place(natural.index(first)) + 1)
     if second is not None:
         # What the first answer took has to do with all that had to be made for it.

@@ -90,8 +90,8 @@ class Reporter(AbstractContextManager["Reporter"]):
         new = self.done - self.before
         rate = new / seconds if seconds > 0 else 0.0
         remaining = (self.total - self.done) / rate if rate else float("inf") if self.done < self.total else 0.0
-        hits = 1.0 - self.evaluated / self.needed if self.needed else 0.0
-        return Report(self.done, self.total, self.failed, seconds, rate, remaining, max(0.0, hits))
+        hits = 1.0 - self.evaluated / max(self.needed, self.evaluated, 1)
+        return Report(self.done, self.total, self.failed, seconds, rate, remaining, hits if self.needed else 0.0)
 
     def __enter__(self) -> Self:
         return self

@@ -120,10 +120,8 @@ class _Layout:
         self.step = width + GAP, height + GAP + (self.line if self.is_wrapped else 0)
         self.full = self.left + self.columns * self.step[0], self.top + self.rows * self.step[1]
         if self.full[0] * self.full[1] > MOST_PIXELS:
-            error = ShapeError(
-                f"contact_sheet: {self.columns} × {self.rows} pictures of {width} × {height} are too many"
-            )
-            raise hint(error, "fewer values, or size=(120, 90)")
+            told = f"{self.columns} × {self.rows} pictures of {width} × {height} pixels"
+            raise hint(ShapeError(f"contact_sheet: {told} are too many"), "fewer values, or size=(120, 90)")
 
     def sheet(self, paths: NDArray[Any], texts: NDArray[Any]) -> Any:
         """The sheet, of pictures in files and of what went wrong."""
@@ -142,9 +140,8 @@ class _Layout:
                 pen.multiline_text((x + GAP, y + GAP), self._broken(str(texts[index])), fill=self.ink, font=self.font)
             if self.is_wrapped:
                 text = self._label(index, range(len(self.grid.shape)))
-                pen.text(
-                    (x + self.size[0] / 2, y + self.size[1] + GAP), text, fill=self.ink, font=self.font, anchor="ma"
-                )
+                place = x + self.size[0] / 2, y + self.size[1] + GAP
+                pen.text(place, text, fill=self.ink, font=self.font, anchor="ma")
             elif row == 0:
                 text = self._label(index, [len(self.grid.shape) - 1])
                 pen.text((x + self.size[0] / 2, self.line / 2), text, fill=self.ink, font=self.font, anchor="mm")

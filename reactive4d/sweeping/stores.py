@@ -181,7 +181,7 @@ class MemoryStore:
             if encoded.kind is not None and kind is not None:
                 self.data[name] = series(self.data.get(name), self.kinds.get(name), kind, self.grid.shape)
                 self.kinds[name] = kind
-                copied(encoded, kind, self.data[name][where], part.mask)
+                copied(encoded, kind, self.data[name][(*where, ...)], part.mask)
         self.status[where] = DONE if part.mask is None else np.where(part.mask, DONE, LEFT_OUT)
         codes = failures(part, self.errors)
         if codes is None:

@@ -20,7 +20,7 @@ from reactive4d.sweeping.jobs import Counter, Job, Part, Visitor
 from reactive4d.sweeping.measures import check_measures, refuse_taken, signals_of
 from reactive4d.sweeping.parcels import pack
 from reactive4d.sweeping.pictures import Picture
-from reactive4d.sweeping.plans import Plan, plan_of
+from reactive4d.sweeping.plans import Plan
 from reactive4d.sweeping.probes import probe
 from reactive4d.sweeping.reports import Listener, Reporter, reporter
 from reactive4d.sweeping.spans import Span
@@ -161,9 +161,8 @@ def _planned(
             kinds = {name: Kind.of(told) for name, told in found["kinds"].items()}
             row = sum(kind.nbytes for kind in kinds.values())
             return Plan(grid.shape, tuple(found["order"]), tuple(found["block"])), kinds, row
-    seen = probe(grid, signals, about.values, drawn=drawn)
-    plan = seen.plan if path is not None else plan_of(grid.shape, seen.plan.order, grid.size)
-    return plan, seen.kinds, seen.row
+    seen = probe(grid, signals, about.values, drawn=drawn, is_stored=path is not None)
+    return seen.plan, seen.kinds, seen.row
 
 
 def _parts(
