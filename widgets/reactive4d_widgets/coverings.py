@@ -128,7 +128,9 @@ class Coverer:
             return Cell(constant(value), reads, frozenset(), answer.interval.start, answer.interval.stop)
         if not is_numeric(value):
             return None
-        return fitted(channel, span, {**self.asker.base, **assigned}, self.size)
+        cell = fitted(channel, span, {**self.asker.base, **assigned}, self.size)
+        self.asker.asks += 0 if cell is None else cell.asks
+        return cell
 
     def _numbers(self, channel: Channel, strip: Strip) -> list[Segment]:
         """What was asked one by one: steps where it holds, straight lines from tick to tick where it does not."""

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from reactive4d.errors import PageTooLargeError, hint
-from reactive4d_widgets.chunks import encode, extent
+from reactive4d_widgets.chunks import encode
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
-from reactive4d_widgets.stores import measured
+from reactive4d_widgets.stores import measured, ranges
 
 __all__ = ["Share", "estimated", "refuse_if_too_large", "too_large"]
 
@@ -58,34 +58,39 @@ def estimated(plan: Plan, coverer: Coverer) -> list[Share]:
 def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Share | None:
     asker, span = plan.asker, plan.span
     gate = coverer.gate(channel)
-    ticks = [t for t in span if gate is None or gate(t)] if gate is not None else list(span)
+    ticks = [k for k, t in enumerate(span) if gate is None or gate(t)]
     few = [ticks[round(i * (len(ticks) - 1) / (PROBES - 1))] for i in range(PROBES)] if len(ticks) > PROBES else ticks
     reads: dict[str, None] = {}
-    values: list[Any] = []
-    moving = 0
-    for t in few:
-        answer = asker.ask(channel.signal, t)
+    still: Any = None
+    moving: list[int] = []
+    for k in few:
+        answer = asker.ask(channel.signal, span.tick(k))
         reads.update(dict.fromkeys(answer.parameters))
-        moving += answer.interval.stop - t < span.step
-        if answer.error is None and answer.value is not None:
-            values.append(answer.value)
+        if answer.interval.stop - span.tick(k) < span.step:
+            moving.append(k)
+        still = answer.value if still is None else still
         if answer.interval.stop > span.stop:
             break
     cells = math.prod([len(asker.stops[name]) for name in reads if name in asker.stops])
-    if not values:
+    if still is None:
         return None
-    count = max(1, round(len(ticks) * moving / len(few))) if moving else 1
     if not moving and cells == 1:
         # Things that stand still may share their arrays; those are counted once.
-        if id(values[0]) in seen:
+        if id(still) in seen:
             return None
-        seen.add(id(values[0]))
-    first = _bytes([_arrays(channel, values[0])])
-    each = first
-    if len(values) > 1:
-        # Two samples that are far from each other differ by more than two ticks do: that errs to the safe side.
-        each = max(_bytes([_arrays(channel, value) for value in values[:2]]) - first, first // 20)
+        seen.add(id(still))
+    first = _bytes([_arrays(channel, still)])
+    count = max(1, round(len(ticks) * len(moving) / len(few)))
+    each = _each(plan, channel, moving[len(moving) // 2]) if moving and count > 1 else 0
     return Share(channel.name, cells, count, cells * (first + each * (count - 1)))
+
+
+def _each(plan: Plan, channel: Channel, k: int) -> int:
+    """What a tick takes after the first: three that follow each other tell."""
+    some = [min(k, plan.span.count - 2) + i for i in range(3)] if plan.span.count >= 2 else [k]
+    answers = [plan.asker.ask(channel.signal, plan.span.tick(i)) for i in some]
+    values = [_arrays(channel, answer.value) for answer in answers if answer.value is not None]
+    return (_bytes(values) - _bytes(values[:1])) // (len(values) - 1) if len(values) > 1 else 0
 
 
 def _arrays(channel: Channel, value: Any) -> list[Any]:
@@ -103,7 +108,7 @@ def _bytes(several: list[list[Any]]) -> int:
             continue
         size += NAME * len(arrays)
         if arrays[0].dtype.kind == "f" and all(array.shape == arrays[0].shape for array in arrays):
-            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=extent(arrays), smooth=True))
+            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=ranges(arrays), smooth=True))
         else:
             size += sum(measured(encode([array], refs=[""])) for array in arrays)
     return size

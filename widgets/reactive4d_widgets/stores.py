@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from reactive4d.references import reference
 from reactive4d_widgets.chunks import encode, extent
 
-__all__ = ["Store"]
+__all__ = ["Store", "measured", "ranges"]
 
 Array = NDArray[Any]
 EXACT = 16_384  # bytes of floats in one channel that are kept to the last bit

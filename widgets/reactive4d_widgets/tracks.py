@@ -37,6 +37,7 @@ class Cell:
         reads: the parameters that it was made for.
         free: the parameters that it reads itself.
         lo, hi: from when to when.
+        asks: how often signals were asked for it.
     """
 
     track: Track
@@ -44,6 +45,7 @@ class Cell:
     free: frozenset[str]
     lo: float
     hi: float
+    asks: int = 0
 
 
 def exact(channel: Channel) -> Exact | None:
@@ -86,7 +88,7 @@ def fitted(channel: Channel, span: Span, parameters: Mapping[str, Any], size: fl
         return None
     free = parameters_in(found.track) - found.reads
     lo, hi = (-INF, INF) if found.exact else (start, span.end)
-    return Cell(found.track, found.reads, free, lo, hi)
+    return Cell(found.track, found.reads, free, lo, hi, found.asks)
 
 
 def _tolerance(channel: Channel, span: Span, parameters: Mapping[str, Any]) -> float:

@@ -8,7 +8,10 @@ import param
 import pytest
 
 import reactive4d as r4
+from reactive4d_widgets.estimates import estimated
 from reactive4d_widgets.lowering import sized
+from reactive4d_widgets.plans import planned
+from reactive4d_widgets.tables import tabulated
 
 
 def evaluations(signal: r4.Signal[Any]) -> int:
@@ -183,3 +186,17 @@ def test_every_number_is_one(bake: Any) -> None:
     baked = bake(r4.Scene(ball=r4.Sphere(), light=r4.Light("point")))
     assert not {"NaN", "Infinity"} & set(baked.text.replace(":", " ").replace(",", " ").split())
     assert baked.of("ball#matrix")[0]["when"] == [None, None]
+
+
+def test_the_size_is_known_before_it_is_asked_for() -> None:
+    """From a few ticks, to within a factor of two."""
+
+    def sheet() -> r4.Scene:
+        made = r4.Plane(size=(4, 4), segments=(60, 60))
+        made.apply(r4.Ripple(0.2, wavelength=1.0, phase=333 * r4.time))
+        return r4.Scene(sheet=made)
+
+    told: list[int] = []
+    plan = planned(sheet(), times=(0, 4))
+    table = tabulated(plan, survey=lambda plan, coverer: told.append(sum(s.size for s in estimated(plan, coverer))))
+    assert 0.5 < told[0] / sum(table.sizes.values()) < 2.0
