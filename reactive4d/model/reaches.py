@@ -103,11 +103,12 @@ def parameters_of(scene: "Scene") -> tuple[Axis, ...]:
 
 
 def _reached(scene: "Scene") -> Iterator[tuple[Any, Maps]]:
-    """All objects and signals below a scene, each with the maps through which it is read, once for each way."""
+    """All objects and signals below a scene, also named ones, each with the maps through which it is read, each way once."""
     scene.frame.valid(0.0)  # so that what Python functions read is remembered; what fails says so when it is asked
     done: set[tuple[int, tuple[int, ...]]] = set()
     kept: list[Any] = []  # what is looked at by its identity must not go away meanwhile
-    todo: list[tuple[Any, Maps]] = [(obj, ()) for obj in reversed(list(scene.values()))]
+    named = [value for value in scene.signals.values() if isinstance(value, Cell)]
+    todo: list[tuple[Any, Maps]] = [(root, ()) for root in reversed([*scene.values(), *named])]
     while todo:
         thing, maps = todo.pop()
         key = id(thing), tuple(map(id, maps))

@@ -137,6 +137,16 @@ def test_parameters_are_found_whether_or_not_they_are_read_now():
     assert found.index(a) < found.index(d) < found.index(e)
 
 
+def test_what_only_a_named_value_reads_is_found():
+    """No object reads the price; the page that shows it has a control all the same."""
+    price = r4.Parameter("price", 2.0)
+    scene = r4.Scene(ball=r4.Sphere())
+    scene.signals["cost"] = price * r4.keys({0: 1.0, 4: 3.0})
+    scene.signals["title"] = "a constant"
+    assert parameters_of(scene) == (price,)
+    assert scene.times == (0.0, 4.0)
+
+
 def test_two_parameters_of_one_name_are_refused():
     """As the engine does when both are read for one answer."""
     one, two = r4.Parameter("reached_twice", 1.0), r4.Parameter("reached_twice", 2.0)
