@@ -103,7 +103,7 @@ def parameters_of(scene: "Scene") -> tuple[Axis, ...]:
 
 
 def _reached(scene: "Scene") -> Iterator[tuple[Any, Maps]]:
-    """All objects and signals below a scene, also named ones, each with the maps through which it is read, each way once."""
+    """Objects and signals below a scene, named ones too, each with the maps through which it is read, each way once."""
     scene.frame.valid(0.0)  # so that what Python functions read is remembered; what fails says so when it is asked
     done: set[tuple[int, tuple[int, ...]]] = set()
     kept: list[Any] = []  # what is looked at by its identity must not go away meanwhile
