@@ -71,9 +71,7 @@ function requireDistinct(names, path) {
 /** @param {any} value @param {string} path */
 function readNode(value, path) {
   const given = object(value, path);
-  const read = { name: name(own(given, "name"), `${path}.name`), kind: name(own(given, "kind") ?? "", `${path}.kind`) };
-  if (read.name.includes("#")) throw new WireError(`${path}.name`, "expected a name without #");
-  return read;
+  return { name: name(own(given, "name"), `${path}.name`), kind: name(own(given, "kind") ?? "", `${path}.kind`) };
 }
 
 /** @param {any} value @param {string} path */

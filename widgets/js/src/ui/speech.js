@@ -1,25 +1,25 @@
 /** What a figure says: the text of its picture, and after the reader acted, what became of it. */
 
+import { described } from "./descriptions.js";
 import { format, stepped, timeText, withUnit } from "./formats.js";
 import { digitsOf, stepOf } from "./stepping.js";
 
 /**
  * @typedef {import("../core/types.js").Manifest} Manifest
  * @typedef {import("../core/types.js").Value} Value
- * @typedef {{ time: number, parameters: import("../core/types.js").Parameters, alt?: string }} Moment
+ * @typedef {import("../core/types.js").Snapshot} Snapshot
+ * @typedef {{ time: number, parameters: import("../core/types.js").Parameters }} Moment
  */
 
 /**
- * The text of the picture: "At 1.27 s: a pendulum, its bob left of the middle." The scene's own text if it has one,
- * else the title and the values of the parameters.
+ * The text of the picture: "At 1.27 s: A crimson sphere (bob) at (0.34, 0.00, −0.94)." It is made of what
+ * is shown, so that it holds at every time and for every value, baked or not.
  * @param {Manifest} manifest
- * @param {Moment} moment
+ * @param {Moment & Partial<Pick<Snapshot, "nodes" | "values">>} moment
  */
-export function pictureText(manifest, { time, parameters, alt }) {
+export function pictureText(manifest, { time, parameters, nodes, values }) {
   const when = `At ${timeText(time)}`;
-  const text = alt?.trim() ?? "";
-  if (/^at \S+\s*s\b/i.test(text)) return text;
-  if (text) return `${when}: ${text}`;
+  if (nodes && values) return `${when}: ${described(manifest, { nodes, values })}`;
   const settings = parameterTexts(manifest, parameters).join(", ");
   return `${when}: ${[manifest.title || manifest.name, settings].filter(Boolean).join(", ")}.`;
 }

@@ -48,6 +48,17 @@ test("where nothing moves, all nodes are the same map", async () => {
   assert.equal((await shown(session, 2)).nodes, first.nodes);
 });
 
+test("a node may be called as it likes", async () => {
+  const names = ["a#b", "#alt", "#values.x", "__proto__", "constructor", "a&b=c", "a\nb"];
+  const draft = new Draft();
+  names.forEach((name, i) => draft.mesh(name, "box", box(), { matrix: shift([i, 0, 0]) }));
+  const { session } = await begun(draft.page());
+  const { nodes, problems } = await shown(session, 1);
+  assert.deepEqual([...nodes.values()].map(({ name, drawn, matrix }) => [name, drawn, matrix[3]]),
+    names.map((name, i) => [name, "mesh", i]));
+  assert.deepEqual(problems, []);
+});
+
 test("a segment is looked for once, and played until it ends", async () => {
   const { session } = await begun();
   await shown(session, 7);

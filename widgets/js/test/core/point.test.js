@@ -98,7 +98,6 @@ test("a link is never believed", () => {
 const wrong = /** @type {[string, any, RegExp][]} */ ([
   ["another format", { format: "reactive4d/2" }, /manifest\.format: expected one of reactive4d\/1/],
   ["two nodes of one name", { nodes: [{ name: "a" }, { name: "a" }] }, /expected different names, got "a" twice/],
-  ["a channel for a name", { nodes: [{ name: "a#b" }] }, /nodes\[0\]\.name: expected a name without #/],
   ["times upside down", { times: { start: 1, stop: 0 } }, /manifest\.times: expected a stop after the start/],
   ["a kind nobody knows", { parameters: [{ name: "a", kind: "file" }] }, /parameters\[0\]\.kind/],
   ["a bound that is code", {
