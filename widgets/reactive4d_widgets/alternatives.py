@@ -28,6 +28,7 @@ _WORDS = {
     "green": "green", "light green": "lightgreen", "bright green": "lime", "teal": "teal", "turquoise": "turquoise",
     "cyan": "cyan", "light blue": "lightblue", "sky blue": "deepskyblue", "steel blue": "steelblue", "blue": "blue",
     "navy": "navy", "violet": "violet", "purple": "purple", "magenta": "magenta", "pink": "pink",
+    "gray green": "darkseagreen",
 }  # fmt: skip
 
 
@@ -55,8 +56,8 @@ class Sight:
 def color_word(value: Any) -> str:
     """The everyday word that comes nearest to a colour.
 
-    >>> color_word(color("crimson")), color_word((0.5, 0.5, 0.52, 1.0)), color_word(color("mediumblue"))
-    ('crimson', 'gray', 'blue')
+    >>> color_word(color("crimson")), color_word((0.5, 0.5, 0.52, 1.0)), color_word(color("darkgray"))
+    ('crimson', 'gray', 'light gray')
     """
     red, green, blue = (round(float(part), 3) for part in value[:3])
     return _nearest(red, green, blue)
@@ -69,7 +70,8 @@ def _known() -> Array:
 
 @lru_cache(maxsize=4096)
 def _nearest(red: float, green: float, blue: float) -> str:
-    off = np.linalg.norm(_known() - srgb_to_oklab(np.array([red, green, blue])), axis=1)
+    # People name the hue; how light it is comes second.
+    off = np.linalg.norm((_known() - srgb_to_oklab(np.array([red, green, blue]))) * (0.5, 1.0, 1.0), axis=1)
     return list(_WORDS)[int(off.argmin())]
 
 
