@@ -371,7 +371,7 @@ class Axis(Cell):
         super().__init__(name=name, engine=engine)
         self.default = self.admit(default)
         self.hit = (-INF, INF, self.present(self.default), 0, None, (self,))
-        self.engine.axes.setdefault(name, self.engine.new_axes()).add(self)
+        self.engine.add_axis(self)
 
     def admit(self, value: Any) -> Any:
         """The value as this parameter understands it.

@@ -74,7 +74,7 @@ class Engine:
         self.undo: list[Any] = []
         self.waiting = 0  # threads that wait for anything
         self.patience = 0  # evaluations that edits wait for
-        self.axes: dict[str, weakref.WeakSet[Axis]] = {}
+        self.axes: dict[str, weakref.WeakKeyDictionary[Axis, None]] = {}
         self.points: dict[Any, Point] = {}
         self.bytes = 0  # at least what the remembered answers take; counted anew before anything is evicted
         self.keepers: list[Any] = []  # weak references to cells that remember something
@@ -108,7 +108,7 @@ class Engine:
 
         Raises:
             UnknownNameError: there is no parameter of this name.
-            ParameterError: a value that no parameter of this name takes.
+            ParameterError: a value that no parameter of this name takes, in the words of the newest.
         """
         try:
             key = tuple(given.items())
@@ -120,7 +120,7 @@ class Engine:
     def _new_point(self, key: Any, given: Mapping[str, Any]) -> Point:
         admitted: dict[str, Any] = {}
         for name in sorted(given):
-            known = list(self.axes.get(name, ()))
+            known = self._called(name)
             if not known:
                 raise unknown(name, [other for other, axes in self.axes.items() if axes], what="parameter")
             refusal: ParameterError | None = None
@@ -129,7 +129,7 @@ class Engine:
                     admitted[name] = axis.admit(given[name])
                     break
                 except ParameterError as error:
-                    refusal = error
+                    refusal = refusal or error
             else:
                 assert refusal is not None
                 raise refusal
@@ -141,9 +141,13 @@ class Engine:
                 self.points[key] = point
         return point
 
-    def new_axes(self) -> "weakref.WeakSet[Axis]":
-        """A set that does not keep its parameters alive."""
-        return weakref.WeakSet()
+    def add_axis(self, axis: "Axis") -> None:
+        """Take note of a parameter, without keeping it alive."""
+        self.axes.setdefault(axis.name, weakref.WeakKeyDictionary())[axis] = None
+
+    def _called(self, name: str) -> "list[Axis]":
+        """The parameters of a name, the newest first."""
+        return list(self.axes.get(name, ()))[::-1]
 
     def elsewhere(self, entry: Any, t: float, point: Point | None) -> "tuple[Cell, float, Point | None]":
         """Where a dependency (cell, map, overrides) is read by a reader at `t` and `point`; the lock may be held."""
@@ -163,7 +167,7 @@ class Engine:
         return cell, t, point
 
     def _admitted(self, name: str, value: Any) -> Any:
-        for axis in list(self.axes.get(name, ())):
+        for axis in self._called(name):
             try:
                 return axis.admit(value)
             except ParameterError:

@@ -265,3 +265,12 @@ def test_sliding_back_costs_nothing(points: list[tuple[float, int]]) -> None:
             assert one.at(0, s_number=x, s_whole=n) == -x
     assert evaluations(both) == len({(x + 0.0, n) for x, n in points})
     assert evaluations(one) == len({x + 0.0 for x, _ in points})
+
+
+def test_a_value_is_refused_in_the_words_of_the_newest_parameter_of_that_name() -> None:
+    """Whoever made one a moment ago means that one, though an older one of the name is still about."""
+    older = r4.Parameter("s_namesake", 3)
+    newer = r4.Parameter("s_namesake", 0.5, bounds=(0, 1))
+    with pytest.raises(ParameterError, match="not within 0 and 1"):
+        newer.at(0, s_namesake=1.5)
+    assert older.at(0, s_namesake=2) == 2
