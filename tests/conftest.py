@@ -7,6 +7,9 @@ import os
 
 from hypothesis import HealthCheck, settings
 
+# Programs are run by the tests of them, in their own folder; they are not looked through for examples.
+collect_ignore_glob = ["examples/*"]
+
 # A shared machine may be slow for a moment: no example is judged by its seconds.
 settings.register_profile("dev", deadline=None, max_examples=50)
 settings.register_profile("quick", deadline=None, max_examples=50, derandomize=True, print_blob=True)
