@@ -6,6 +6,7 @@ import { WireError } from "./errors.js";
 import { identity } from "./matrices.js";
 
 /**
+ * @typedef {import("./types.js").Drawn} Drawn
  * @typedef {import("./types.js").NodeState} NodeState
  * @typedef {import("./types.js").Parameters} Parameters
  * @typedef {import("./types.js").Problem} Problem
@@ -29,6 +30,7 @@ const NO_SETTINGS = Object.freeze({
   text: null, height: null, light_type: null, intensity: null, angle: null, reach: null, shadows: null,
   fov: null, near: null, far: null, target: null,
 });
+const PLACED = Object.freeze(["matrix"]); // a group is not drawn, but a handle stands where it is
 const SETTING = Object.keys(NO_SETTINGS);
 /** @type {readonly string[]} */
 const NONE = Object.freeze([]);
@@ -147,10 +149,11 @@ export class NodeWatch {
     const drawn = this.#cell("drawn", scope, t, parameters);
     if (scope.missing.length > before) return false;
     if (this.#fails(drawn)) return true;
-    for (const channel of WANTED[/** @type {NodeState["drawn"]} */ (drawn.value)]) {
-      this.#cell(channel, scope, t, parameters);
-    }
+    const kind = /** @type {Drawn} */ (drawn.value);
+    const wanted = kind === "none" && this.kind === "group" ? PLACED : WANTED[kind];
+    for (const channel of wanted) this.#cell(channel, scope, t, parameters);
     if (scope.missing.length > before) return false;
+    if (wanted === PLACED) return true; // if that is an error, its members say so
     for (const cell of this.#used.values()) if (this.#fails(cell)) return true;
     return this.#resolves(scope);
   }
@@ -207,7 +210,7 @@ export class NodeWatch {
       drawn,
       visible,
       color: has("color") ? used.get("color")?.value : WHITE,
-      matrix: isThere ? used.get("matrix")?.value : IDENTITY,
+      matrix: visible && used.get("matrix")?.state === "value" ? used.get("matrix")?.value : IDENTITY,
       points: has("points") ? this.#body.points : null,
       topology: has("topology") ? this.#body.topology : null,
       paints: has("paints") ? this.#body.paints : null,

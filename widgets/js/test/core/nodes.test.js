@@ -59,6 +59,18 @@ test("a node may be called as it likes", async () => {
   assert.deepEqual(problems, []);
 });
 
+test("it is known where a group is, and if it is not, nothing is wrong with it", async () => {
+  const draft = new Draft();
+  draft.node("car", "group", "none");
+  draft.say("car#matrix", shift([3, 0, 0]));
+  draft.node("lost", "group", "none");
+  const { session } = await begun(draft.page());
+  const { nodes, problems } = await shown(session, 1);
+  assert.deepEqual(["car", "lost"].map((name) => nodes.get(name)?.matrix[3]), [3, 0]);
+  assert.deepEqual(problems, []);
+  assert.equal(session.evaluate("car#matrix", 1)?.[3], 3);
+});
+
 test("a segment is looked for once, and played until it ends", async () => {
   const { session } = await begun();
   await shown(session, 7);
