@@ -7,6 +7,7 @@ import os
 import shutil
 import sys
 import tempfile
+import webbrowser
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -14,7 +15,9 @@ import reactive4d as r4
 from reactive4d.errors import Reactive4dError
 from reactive4d_apps import stories
 from reactive4d_apps.demos import demonstrated
+from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import baked
+from reactive4d_apps.places import found
 from reactive4d_apps.shows import answers_of, show
 
 __all__ = ["main"]
@@ -64,6 +67,9 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
         place = words.output or Path(words.script).with_suffix(".html").name
         scene = r4.Scene.load(words.script)
         yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
+    elif words.command == "serve":
+        browser = webbrowser.open if words.open else None
+        yield from opened(found(words.place), port=words.port, host=words.host, browser=browser, width=width)
     elif words.script is None:
         yield from stories.story(words.at or stories.TIMES, width=width)
     else:
@@ -91,6 +97,17 @@ def _parser() -> argparse.ArgumentParser:
     bake.add_argument("--title", metavar="TEXT", help="what stands above the figure")
     about = f"a larger page is refused (default {LIMIT:g})"
     bake.add_argument("--limit", type=_positive, default=LIMIT, metavar="MB", help=about)
+
+    about = "serve a page of a script or a class to any number of readers"
+    serve = commands.add_parser("serve", help=about, description=f"{about.capitalize()}, until ctrl-C.")
+    about = "a script; or a scene, an illustration or a page in a module or a file, which runs"
+    serve.add_argument("place", metavar="file.scefo|module:Class|file.py:Class", help=about)
+    about = "on which it listens (default: any that is free)"
+    serve.add_argument("--port", type=int, default=0, metavar="N", help=about)
+    about = "to which it is bound (default 127.0.0.1: only this machine reaches it)"
+    serve.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=about)
+    about = "do not open a browser"
+    serve.add_argument("--no-open", dest="open", action="store_false", help=about)
 
     about = "print what the scene of a script shows at some instants"
     shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")

@@ -22,6 +22,7 @@ __all__ = ["Control", "Wire", "control_of", "control_of_axis", "number_of"]
 # What travels: None, a truth value, a number, a string, or a pair of numbers as a tuple.
 Wire: TypeAlias = Any
 Bounds: TypeAlias = tuple[float | None, float | None]
+NUMERIC = frozenset({"number", "integer", "range", "xy"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,6 +94,10 @@ class Control:
         for option, choice in zip(self.options or (), self.choices, strict=True):
             if type(option) is type(wire) and option == wire:
                 return self.check(choice)
+        parts = wire if isinstance(wire, list | tuple) else (wire,)  # pyright: ignore[reportUnknownVariableType]
+        if self.kind in NUMERIC and any(isinstance(part, bool) for part in parts):  # pyright: ignore[reportUnknownVariableType]
+            # For Python a truth value is a number; who sends one means something else.
+            raise ParameterError(f"{self.name}: expected a number, got a truth value")
         return self.check(tuple(wire) if isinstance(wire, list) else wire)  # pyright: ignore[reportUnknownArgumentType]
 
     def admit(self, wire: Wire) -> Wire:

@@ -235,6 +235,17 @@ class Illustration(param.Parameterized):
         """
         return device("render")(self, path, **options)
 
+    def serve(self, *, port: int = 0, host: str = "127.0.0.1", **options: Any) -> Any:
+        """Serve a page to many readers, each of whom is at a point of their own; it needs `reactive4d[trame]`.
+
+        Args:
+            port: 0 for any that is free.
+            host: by default it can be reached from this machine alone.
+            **options: `block`, whether to wait until ctrl-C; `text`, `title`, `times` and so on; a parameter's value
+                by its name.
+        """
+        return device("serve")(self, port=port, host=host, **options)
+
 
 def _refuse_taken(cls: type, name: str) -> None:
     """Raise if a parameter has a name that means something else already."""

@@ -16,6 +16,7 @@ export { compile } from "./core/tracks.js";
 
 // transports: who answers
 export { baked } from "./transports/baked.js";
+export { socket } from "./transports/socket.js";
 
 // render: pictures
 export { Stage } from "./render/stages.js";
@@ -27,3 +28,4 @@ export { LinkElement } from "./inline/link.js";
 export { NumberElement } from "./inline/number.js";
 export { WordElement } from "./inline/word.js";
 export { define, start } from "./adapters/page.js";
+export { connect, serve } from "./adapters/trame.js";

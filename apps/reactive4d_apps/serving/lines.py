@@ -1,0 +1,213 @@
+"""Lines: the connection to one reader of one figure.
+
+What a reader sends is read as fast as they may send, and no faster; what they ask is worked out in threads; what they
+do not take in time is not kept for them. Nothing of it waits for another reader.
+"""
+
+import asyncio
+import contextlib
+import logging
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from reactive4d_apps.serving.buckets import Bucket
+from reactive4d_apps.serving.frames import FrameError, packed, unpacked
+from reactive4d_apps.serving.limits import Limits
+from reactive4d_apps.serving.workers import SlowError, Turns
+
+__all__ = ["Answers", "Line"]
+
+LOG = logging.getLogger("reactive4d.serving")
+ASKED = frozenset({"open", "ask", "need"})
+SILENT = frozenset({"dropped"})
+MOST_SPANS = 10_000  # of news that wait; beyond, the reader opens again
+PIECE = 16_384  # bytes; a message counts as one, and one more for each of these
+
+
+class Answers(Protocol):
+    """Who answers one reader, as `reactive4d_widgets.live.Reader` does."""
+
+    def receive(self, message: Any, /) -> tuple[dict[str, Any] | None, list[bytes]]:
+        """The reply to a message, with the bytes that travel beside it; never an exception for what was sent."""
+        ...
+
+    def close(self) -> None:
+        """Nobody reads any more."""
+        ...
+
+
+class Line:
+    """One connection.
+
+    Args:
+        socket: that is open.
+        answers: who answers, made of what is to be called with news, from whatever thread.
+        turns: where is worked.
+        limits: what is bounded.
+        name: how the log calls it.
+        abort: cuts the connection, whatever is still to be sent.
+
+    Attributes:
+        heard: how many messages were read.
+    """
+
+    def __init__(
+        self,
+        socket: web.WebSocketResponse,
+        answers: Callable[[Callable[[dict[str, Any]], None]], Answers],
+        turns: Turns,
+        limits: Limits,
+        name: str,
+        abort: Callable[[], None],
+    ) -> None:
+        self.socket = socket
+        self._abort = abort
+        self.turns = turns
+        self.limits = limits
+        self.name = name
+        self._loop = asyncio.get_running_loop()
+        self._bucket = Bucket(limits.rate, limits.burst)
+        self._sending = asyncio.Lock()
+        self._working: set[asyncio.Task[None]] = set()
+        self.heard = 0
+        self._faults = 0
+        self._asked = 0
+        self._news: dict[str, Any] | None = None
+        self._has_news = asyncio.Event()
+        self._answers = answers(self._tell)
+
+    async def run(self) -> None:
+        """Serve the reader until they go, or have to."""
+        herald = asyncio.create_task(self._herald())
+        try:
+            async for message in self.socket:
+                if not await self._hear(message.type, message.data):
+                    break
+        finally:
+            for task in (herald, *self._working):
+                task.cancel()
+            self._answers.close()
+
+    # -- what comes ------------------------------------------------------------------------------------------------
+
+    async def _hear(self, kind: WSMsgType, data: Any) -> bool:
+        """Take one message; False when it was one too many."""
+        wait = self._bucket.take(1 + len(data) // PIECE if kind in (WSMsgType.TEXT, WSMsgType.BINARY) else 1)
+        if wait:
+            await asyncio.sleep(wait)
+        self.heard += 1
+        try:
+            if kind is not WSMsgType.TEXT:
+                raise FrameError("expected a text")
+            message = unpacked(data)
+            word = message.get("type")
+        except FrameError as error:
+            return await self._refuse(None, str(error))
+        if isinstance(word, str) and word in SILENT:
+            await self._quietly(message)
+            return True
+        if not (isinstance(word, str) and word in ASKED):
+            told = f"an unknown message, {word[:40]!r}" if isinstance(word, str) else "a message without a type"
+            return await self._refuse(_number(message), told)
+        if self._asked >= self.limits.asks:
+            return await self._refuse(_number(message), f"more than {self.limits.asks} asks at one time")
+        self._asked += 1
+        task = asyncio.create_task(self._reply(message))
+        self._working.add(task)
+        task.add_done_callback(self._working.discard)
+        return True
+
+    async def _refuse(self, number: int | None, reason: str) -> bool:
+        """Say what was wrong, to the reader and to the log; False if it was wrong too often."""
+        self._faults += 1
+        LOG.warning("%s: refused %s", self.name, reason)
+        await self._send({"id": number, "type": "error", "text": f"refused: {reason}"})
+        if self._faults < self.limits.faults:
+            return True
+        LOG.warning("%s: ended after %d faults", self.name, self._faults)
+        await self.end(WSCloseCode.POLICY_VIOLATION, b"too many faults")
+        return False
+
+    async def _quietly(self, message: dict[str, Any]) -> None:
+        try:
+            await self.turns.run(lambda: self._answers.receive(message), self.limits.thinking)
+        except SlowError:
+            LOG.warning("%s: has to wait", self.name)
+        except Exception:  # a mistake of ours must not end what others have
+            LOG.exception("%s: not noted", self.name)
+
+    async def _reply(self, message: dict[str, Any]) -> None:
+        number = _number(message)
+        try:
+            reply, buffers = await self.turns.run(lambda: self._answers.receive(message), self.limits.thinking)
+        except SlowError as error:
+            LOG.warning("%s: %s", self.name, error)
+            reply, buffers = {"id": number, "type": "error", "text": str(error)}, []
+        except Exception:  # a mistake of ours must not end what others have
+            LOG.exception("%s: no answer", self.name)
+            reply, buffers = {"id": number, "type": "error", "text": "this went wrong on the server; see its log"}, []
+        if reply is not None and reply.get("type") == "error":
+            LOG.warning("%s: %s", self.name, str(reply.get("text"))[:200])
+        try:
+            if reply is not None:
+                await self._send(reply, buffers)
+        finally:
+            self._asked -= 1
+
+    # -- what goes -------------------------------------------------------------------------------------------------
+
+    async def _send(self, message: dict[str, Any] | None, buffers: list[bytes] | None = None) -> None:
+        """Send what is new, and this message, to this reader, who has a while to take it; who does not is gone."""
+        data = () if message is None else (packed(message, buffers),)
+        try:
+            async with asyncio.timeout(self.limits.sending), self._sending:
+                # Who hears of a revision gets answers of it afterwards.
+                news, self._news = self._news, None
+                for part in data if news is None else (packed(news), *data):
+                    if not self.socket.closed:
+                        await (self.socket.send_str(part) if isinstance(part, str) else self.socket.send_bytes(part))
+        except TimeoutError:
+            LOG.warning("%s: ended, takes nothing for %g s", self.name, self.limits.sending)
+            self._abort()
+        except (ConnectionError, RuntimeError):
+            self._abort()  # gone meanwhile
+
+    def _tell(self, news: dict[str, Any]) -> None:
+        """Take note of news; any thread, the model's own included."""
+        with contextlib.suppress(RuntimeError):  # the server has ended
+            self._loop.call_soon_threadsafe(self._take, news)
+
+    def _take(self, news: dict[str, Any]) -> None:
+        """What was not sent yet and what is new become one message, so that nothing piles up."""
+        known = self._news
+        if known is not None and known.get("type") == news.get("type") == "stale":
+            spans = {tuple(span): None for span in (*known["spans"], *news["spans"])}
+            news = {**news, "spans": list(spans)} if len(spans) <= MOST_SPANS else {"type": "reopen"}
+        elif known is not None and known.get("type") == "reopen":
+            news = known
+        self._news = news
+        self._has_news.set()
+
+    async def _herald(self) -> None:
+        """Send news where no reply takes them along; what comes while something is being sent is told together."""
+        while True:
+            await self._has_news.wait()
+            self._has_news.clear()
+            await self._send(None)
+
+    # -- the end ---------------------------------------------------------------------------------------------------
+
+    async def end(self, code: int, reason: bytes) -> None:
+        """Say good-bye, but do not wait for an answer."""
+        try:
+            async with asyncio.timeout(1.0):
+                await self.socket.close(code=code, message=reason)
+        except TimeoutError:
+            self._abort()
+
+
+def _number(message: Any) -> int | None:
+    found: Any = message.get("id") if isinstance(message, dict) else None  # pyright: ignore
+    return found if isinstance(found, int) and not isinstance(found, bool) and abs(found) < 2**53 else None

@@ -1,0 +1,109 @@
+"""Serving: a scene, an illustration or a page is put before many readers, each of whom drives it for themselves."""
+
+import inspect
+import sys
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from reactive4d.errors import unknown
+from reactive4d.illustrations import Figure, Illustration, Page
+from reactive4d.illustrations import subject as subject_of
+from reactive4d_apps.serving.documents import document, files
+from reactive4d_apps.serving.exhibits import Exhibit
+from reactive4d_apps.serving.halls import Hall
+from reactive4d_apps.serving.limits import Limits
+from reactive4d_apps.serving.servers import Server
+
+__all__ = ["serve"]
+
+
+def serve(
+    subject: Any,
+    /,
+    *,
+    port: int = 0,
+    host: str = "127.0.0.1",
+    block: bool | None = None,
+    times: Any = None,
+    text: str | None = None,
+    title: str | None = None,
+    lang: str = "en",
+    theme: str = "auto",
+    options: Mapping[str, Any] | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    origins: Collection[str] = (),
+    limits: Limits | None = None,
+    **values: Any,
+) -> Server:
+    """Serve a page whose figures ask the model, for any number of readers.
+
+    Each has a point of their own: what one of them does, the others do not see. The model and what is remembered of it
+    are one; an edit of it is seen by all.
+
+    Args:
+        subject: a scene, an illustration or its class, or a Page of several.
+        port: on which it listens; 0 for any that is free.
+        host: to which it is bound: by default this machine alone can reach it.
+        block: whether to wait until ctrl-C; by default where nobody could type anything else meanwhile.
+        times: None for the subject's own, (start, stop), or evenly spaced times, seconds.
+        text: Markdown, as for `bake`; by default what the illustration's class says of itself.
+        title: of the page; otherwise its first heading, or what the subject is called.
+        lang: of the text, as in HTML.
+        theme: "light", "dark", or "auto": as the reader's system is.
+        options: how figures are shown at first: theme, height, loop, autoplay, edges, shading, ground, axes, grid,
+            shadows, playing.
+        parameters: values by name, for parameters that are called like one of these arguments.
+        origins: of further sites whose pages may speak to the server, such as that of a proxy.
+        limits: how much one reader may take.
+        **values: of parameters, with which it opens.
+
+    Returns:
+        The server: its `address`, and `close()`.
+
+    Raises:
+        UnknownNameError: a parameter or an option that nobody knows.
+        ParameterError: a value that its parameter does not admit.
+        Reactive4dError: the port is taken, the scene is empty, or the viewer was not built.
+
+    >>> import reactive4d as r4
+    >>> with serve(r4.Scene(ball=r4.Sphere()), block=False) as server:
+    ...     print(server.address)
+    http://127.0.0.1:.../.../
+    """
+    given = {**values, **(parameters or {})}
+    page = subject if isinstance(subject, Page) else None
+    figures = {subject_of(subject).name: Figure(subject)} if page is None else dict(page.figures)
+    known = {control.name for figure in figures.values() for control in subject_of(figure.thing).controls}
+    for name in given:
+        if name not in known:
+            raise unknown(name, known, what="parameter")
+    prose = text if text is not None else page.text if page is not None else _said_of(subject)
+    exhibits = {
+        name: Exhibit(name, figure, times=times, values=given, options=options) for name, figure in figures.items()
+    }
+    openings = {name: exhibit.opening for name, exhibit in exhibits.items()}
+    hall = Hall(
+        lambda: document(openings, prose, title=title, lang=lang, theme=theme),
+        files(),
+        {name: exhibit.open for name, exhibit in exhibits.items()},
+        host=host,
+        origins=origins,
+        limits=limits,
+    )
+    server = Server(hall, host=host, port=port)
+    if (not _is_interactive()) if block is None else block:
+        server.wait()
+    return server
+
+
+def _said_of(subject: Any) -> str:
+    """What the class of an illustration says of itself; nothing of a scene."""
+    cls = subject if isinstance(subject, type) else type(subject)
+    if not issubclass(cls, Illustration) or cls is Illustration:
+        return ""
+    return inspect.cleandoc(cls.__doc__ or "")
+
+
+def _is_interactive() -> bool:
+    """Whether somebody types, line by line: then they want to go on."""
+    return hasattr(sys, "ps1") or bool(sys.flags.interactive)
