@@ -20,7 +20,7 @@ from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.views import View, holding, outermost
 from reactive4d_widgets.writing import held
 
-__all__ = ["alternatives", "outline", "view"]
+__all__ = ["alternatives", "outline", "text_of", "view"]
 
 Array = NDArray[np.float64]
 TIMES = 9
@@ -90,7 +90,7 @@ def alternatives(plan: Plan, size: float) -> list[Segment]:
     """The channel `#alt`: what can be seen, at a dozen ticks; for baked values as far as there are not too many."""
     span, asker = plan.span, plan.asker
     reads: set[str] = set()
-    _text(plan, span.start, {}, size, reads)
+    text_of(plan, span.start, {}, size, reads)
     baked = [name for name in asker.stops if name in reads]
     combinations = list(itertools.islice(asker.combinations(baked), MOST_TEXTS + 1))
     if len(combinations) > MOST_TEXTS // 2:
@@ -98,13 +98,14 @@ def alternatives(plan: Plan, size: float) -> list[Segment]:
     times = span.few(max(2, min(TEXTS, MOST_TEXTS // len(combinations))))
     found: list[Segment] = []
     for assigned in combinations:
-        texts = [_text(plan, t, assigned, size, reads) for t in times]
+        texts = [text_of(plan, t, assigned, size, reads) for t in times]
         where = {name: {**asker.base, **assigned}[name] for name in sorted(reads)}
         found.append(Segment("#alt", span.start, span.end, where, held(times, texts)))
     return found
 
 
-def _text(plan: Plan, t: float, assigned: Mapping[str, Any], size: float, reads: set[str]) -> str:
+def text_of(plan: Plan, t: float, assigned: Mapping[str, Any], size: float, reads: set[str]) -> str:
+    """What can be seen at one time; `reads` is told which parameters that follows from."""
     sights = list(_sights(plan, t, assigned, reads))
     values: dict[str, Any] = {}
     for channel in plan.values:

@@ -1,0 +1,6 @@
+"""Scenes that are edited while somebody looks."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))

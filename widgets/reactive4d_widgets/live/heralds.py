@@ -1,0 +1,88 @@
+"""Heralds: one thread that tells readers of edits, so that whoever edits never waits for them.
+
+Edits that follow each other closely are told together.
+"""
+
+import contextlib
+import threading
+from typing import Any
+from weakref import WeakSet
+
+from reactive4d.engine.engines import engine
+
+__all__ = ["Herald", "herald"]
+
+PAUSE = 0.005  # seconds in which further edits may come
+IDLE = 10.0  # seconds after which a thread ends that has nothing to do
+
+
+class Herald:
+    """Tells the readers of models what became stale.
+
+    >>> Herald().is_awake
+    False
+    """
+
+    def __init__(self) -> None:
+        self._models: WeakSet[Any] = WeakSet()
+        self._heard = threading.Event()
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._is_listening = False
+
+    @property
+    def is_awake(self) -> bool:
+        """Whether its thread runs."""
+        return self._thread is not None
+
+    def announce(self, model: Any) -> None:
+        """Tell the readers of one more model."""
+        with self._lock:
+            self._models.add(model)
+            is_first, self._is_listening = not self._is_listening, True
+        if is_first:
+            engine.listen(self._heard_of)
+
+    def _heard_of(self) -> None:
+        """Something was edited; the engine's lock is held, so nothing but this is done here."""
+        if not self._models:
+            return
+        self._heard.set()
+        if self._thread is None:
+            self._wake()
+
+    def wake(self) -> None:
+        """Tell now, on the herald's own thread."""
+        self._heard.set()
+        self._wake()
+
+    def _wake(self) -> None:
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name="reactive4d-herald", daemon=True)
+                self._thread.start()
+
+    def _run(self) -> None:
+        pause = threading.Event()
+        while True:
+            if not self._heard.wait(IDLE):
+                with self._lock:
+                    if not self._heard.is_set():
+                        self._thread = None
+                        return
+            pause.wait(PAUSE)
+            self._heard.clear()
+            self.tell()
+
+    def tell(self) -> None:
+        """Tell all readers of all models, on the thread that asks."""
+        for model in list(self._models):
+            # What goes wrong with one model is told to whoever asks it; the others go on.
+            with contextlib.suppress(Exception):
+                model.refresh()
+            for reader in model.readers:
+                with contextlib.suppress(Exception):
+                    reader.flush()
+
+
+herald = Herald()
