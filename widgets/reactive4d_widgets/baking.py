@@ -17,7 +17,8 @@ from reactive4d_widgets.bundles import packed, styles
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.estimates import estimated, refuse_if_too_large, too_large
 from reactive4d_widgets.figures import Shown, checked_options
-from reactive4d_widgets.pages import document, heading, joined
+from reactive4d_widgets.notes import notes
+from reactive4d_widgets.pages import document, heading, joined, refuse_wrong_words
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.progress import Bar, bar
 from reactive4d_widgets.prose import written
@@ -40,6 +41,7 @@ class Report:
         asks: how often the model was asked; what was remembered is counted, too.
         sizes: bytes by figure and channel: `pendulum/rod#points`.
         problems: what went wrong in the model; the page says so where it happens.
+        notes: what readers cannot reach: parameters that stay where they are, links that do not arrive.
     """
 
     path: Path
@@ -47,14 +49,14 @@ class Report:
     asks: int
     sizes: Mapping[str, int]
     problems: tuple[Problem, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         told = f"{self.path}: {self.size / 1e3:.0f} KB, {self.asks} asks"
-        if not self.problems:
-            return told
         count = len(self.problems)
-        lines = [f"{told}, {count} error{'' if count == 1 else 's'} in the model:", *map(str, self.problems[:10])]
-        return "\n  ".join(lines)
+        if count:
+            told += f", {count} error{'' if count == 1 else 's'} in the model:"
+        return "\n  ".join([told, *map(str, self.problems[:10]), *self.notes[:10]])
 
     __repr__ = __str__
 
@@ -114,11 +116,17 @@ def bake(
     True
     """
     target = _target(path)
+    page = subject if isinstance(subject, Page) else None
+    prose = page.text if page is not None and not text else text
+    refuse_wrong_words(prose, title, lang)
+    checked_options({"theme": theme}, {})
+    if options is not None and not isinstance(options, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise hint(ShapeError(f"options: expected them by name, got {options!r}"), 'options={"grid": True}')
+    if not isinstance(limit, int | float) or limit != limit:  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise hint(ShapeError(f"limit: expected a number of bytes, got {limit!r}"), "limit=50e6, or np.inf")
     packed()  # whoever lacks the viewer is told at once
     styles()
-    page = subject if isinstance(subject, Page) else None
     figures = {subject_of(subject).name: Figure(subject)} if page is None else dict(page.figures)
-    prose = page.text if page is not None and not text else text
     given = {**values, **(parameters or {})}
     _refuse_strangers(figures, given)
     with bar(shown=progress, title=target.name) as told:
@@ -128,6 +136,8 @@ def bake(
 
 def _target(path: str | os.PathLike[str]) -> Path:
     target = Path(path)
+    if not target.name:
+        raise hint(UnknownNameError(f"{os.fspath(path)!r}: a page is a file"), "'page.html'")
     if target.suffix.lower() not in ENDINGS:
         raise hint(
             UnknownNameError(f"{target.name!r}: a page is no {target.suffix or 'file without an ending'}"),
@@ -250,7 +260,6 @@ def _served(
     shown: list[Shown], text: str, target: Path, *, title: str | None, limit: float, lang: str, theme: str
 ) -> Report:
     """Write the file."""
-    checked_options({"theme": theme}, {})
     _led(shown, text)
     casts = [figure.cast() for figure in shown]
     prose = written(text, casts)
@@ -275,4 +284,5 @@ def _served(
     put(target, content)
     problems = tuple(problem for f in shown if f.source == f.name for problem in f.table.problems)
     asks = sum(figure.table.asks for figure in shown if figure.source == figure.name)
-    return Report(target, len(content), asks, dict(sorted(sizes.items(), key=lambda item: -item[1])), problems)
+    largest = dict(sorted(sizes.items(), key=lambda item: -item[1]))
+    return Report(target, len(content), asks, largest, problems, notes(shown, prose.links))

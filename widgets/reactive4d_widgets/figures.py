@@ -56,6 +56,8 @@ def checked_options(options: Mapping[str, Any] | None, parameters: Mapping[str, 
                 raise hint(ShapeError(f"{name}: {value!r} is none of its values"), f"one of {', '.join(wanted)}")
         elif not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
             raise ShapeError(f"{name}: expected {wanted.__name__}, got {value!r}")
+        elif name == "height" and value < 1:
+            raise ShapeError(f"height: expected pixels, 1 or more, got {value}")
     playing = (options or {}).get("playing", "time")
     if playing != "time" and playing not in parameters:
         raise unknown(playing, ["time", *parameters], what="parameter to play")

@@ -8,9 +8,10 @@ import re
 from collections.abc import Iterable, Mapping
 from html import escape
 
+from reactive4d.errors import ShapeError
 from reactive4d_widgets.bundles import LOADER, loader_hash, packed, styles
 
-__all__ = ["document", "inert"]
+__all__ = ["document", "heading", "inert", "joined", "refuse_wrong_words"]
 
 _POLICY = (
     "default-src 'none'; script-src {loader} blob:; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -89,3 +90,20 @@ def heading(title: str) -> str:
 def joined(parts: Iterable[str]) -> str:
     """Parts of a body, one after the other."""
     return "\n".join(part for part in parts if part)
+
+
+def refuse_wrong_words(text: object, title: object, lang: object) -> None:
+    """What stands on a page must be text that a file can hold.
+
+    Raises:
+        ShapeError: it is not.
+
+    >>> refuse_wrong_words("# A ball", None, "en")
+    """
+    for name, words in {"text": text, "title": "" if title is None else title, "lang": lang}.items():
+        if not isinstance(words, str):
+            raise ShapeError(f"{name}: expected a text, got {words!r}")
+        try:
+            words.encode("utf-8")
+        except UnicodeEncodeError as error:
+            raise ShapeError(f"{name}: {words[error.start]!r} is half a character") from None

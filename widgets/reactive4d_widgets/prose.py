@@ -52,12 +52,14 @@ class Written:
         title: the text of the first heading of the first rank; None without one.
         placed: the names of the figures that stand in it.
         follows: which of them follows which.
+        links: the figures and the points that links go to, as text.
     """
 
     html: str
     title: str | None = None
     placed: list[str] = field(default_factory=list[str])
     follows: dict[str, str] = field(default_factory=dict[str, str])
+    links: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
 
 
 def written(text: str, casts: Iterable[Cast]) -> Written:
@@ -86,6 +88,7 @@ class _Composer:
         self.casts = casts
         self.order: list[str] = []  # figures that were placed so far
         self.follows: dict[str, str] = {}
+        self.links: list[tuple[str, str]] = []
         self.slugs: set[str] = set()  # names of headings
         self.markdown = MarkdownIt("commonmark", {"html": False, "typographer": True})
         self.markdown.enable(["table", "strikethrough", "replacements", "smartquotes"])
@@ -118,7 +121,7 @@ class _Composer:
             made_of.append(token)
             i += 1
         made.html = self.markdown.renderer.render(made_of, self.markdown.options, env).rstrip("\n")
-        made.placed, made.follows = list(self.order), self.follows
+        made.placed, made.follows, made.links = list(self.order), self.follows, self.links
         return made
 
     def _slug(self, title: str) -> str:
@@ -208,6 +211,7 @@ class _Composer:
         inside = unquote(address[1:])
         if "=" in inside:
             cast, point = self._point(address[1:])
+            self.links.append((cast.name, point))
             return f'<r4d-link figure="{escape(cast.name)}" point="{escape(point)}">', "</r4d-link>"
         try:
             cast, node = self._owner(inside, lambda cast: dict.fromkeys(cast.nodes), what="object")

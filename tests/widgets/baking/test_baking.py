@@ -203,6 +203,8 @@ def test_language_and_theme_are_the_authors(tmp_path: Path) -> None:
         ({"shading": "shiny"}, ShapeError, "'shiny' is none of its values"),
         ({"grid": "yes"}, ShapeError, "grid: expected bool"),
         ({"height": True}, ShapeError, "height: expected int"),
+        ({"height": -5}, ShapeError, "height: expected pixels, 1 or more, got -5"),
+        (["grid"], ShapeError, "options: expected them by name"),
         ({"playing": "width"}, UnknownNameError, "unknown parameter to play 'width'"),
     ],
 )
@@ -299,6 +301,7 @@ def test_an_old_page_stays_until_the_new_one_is_whole(tmp_path: Path, monkeypatc
         ("missing/page.html", FileNotFoundError, "no such folder"),
         ("page.png", UnknownNameError, "a page is no .png"),
         ("page", UnknownNameError, "a page is no file without an ending"),
+        ("/", UnknownNameError, "'/': a page is a file"),
     ],
 )
 def test_a_path_that_cannot_be_is_refused_before_anything_is_asked(
@@ -402,3 +405,52 @@ def test_nothing_is_printed_where_there_is_no_terminal(tmp_path: Path, capfd: py
     """Progress is for those who watch."""
     bake(ball(), tmp_path / "page.html", progress=True)
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"text": None}, "text: expected a text, got None"),
+        ({"text": "a\ud800"}, "is half a character"),
+        ({"title": 3}, "title: expected a text, got 3"),
+        ({"lang": b"en"}, "lang: expected a text"),
+        ({"theme": "pink"}, "'pink' is none of its values"),
+        ({"limit": "20 MB"}, "limit: expected a number of bytes"),
+        ({"limit": float("nan")}, "limit: expected a number of bytes"),
+    ],
+)
+def test_what_stands_round_a_figure_is_checked_before_anything_is_asked(
+    given: Any, message: str, tmp_path: Path
+) -> None:
+    """A long bake does not end in a spelling mistake."""
+    asked = r4.signal(lambda t: pytest.fail("asked"))
+    with pytest.raises(ShapeError, match=message):
+        bake(r4.Scene(ball=r4.Sphere(radius=asked)), tmp_path / "page.html", **given)
+
+
+def test_the_report_tells_the_author_what_readers_cannot_reach(tmp_path: Path) -> None:
+    """Parameters without values, and links to points that the page does not hold."""
+
+    class Bump(r4.Illustration):
+        size = param.Number(1.0, bounds=(0.5, 2.0))
+        bumps = param.Integer(1, bounds=(1, 5))
+        place = param.Number(0.0, bounds=(0, 1))
+
+        def build(self) -> r4.Scene:
+            p = self.signals
+            ball = r4.Sphere(radius=p.size.map(lambda size: size if size < 1 else 1 / size))
+            ball.translate(r4.vec(p.bumps.map(lambda n: n % 3), 0, 0))
+            box = r4.Box()
+            box.translate(r4.vec(0, 0, p.place))
+            return r4.Scene(ball=ball, box=box)
+
+    text = "[a](#size=0.5) [b](#size=1.25&place=0.5) [c](#bumps=2) [d](#place=7)"
+    report = bake(Bump, tmp_path / "page.html", text=text, times=(0, 1), size=[0.5, 1.0, 2.0])
+    assert report.notes == (
+        "bump: readers cannot move bumps; values to stop at may be given: bumps=[…]",
+        "the link #size=1.25&place=0.5: the page holds no size = 1.25, only 0.5, 1.0, 2.0",
+        "the link #bumps=2: the page holds no bumps = 2, only 1",
+        "the link #place=7: Number parameter 'Bump.place' must be at most 1, not 7.0.",
+    )
+    assert all(note in str(report) for note in report.notes)
+    assert bake(ball(), tmp_path / "ball.html").notes == ()
