@@ -9,8 +9,11 @@ import { decode } from "../src/core/chunks.js";
 import { Session } from "../src/core/session.js";
 import { keyOf } from "../src/core/segments.js";
 import { baked } from "../src/transports/baked.js";
+import { comm } from "../src/transports/comm.js";
 import { counted, rested } from "./core/puppets.mjs";
+import { kernel } from "./core/kernels.mjs";
 import { page } from "./fixtures/build.mjs";
+import { FakeServer } from "./transports/servers.mjs";
 
 /**
  * @typedef {import("../src/core/types.js").PageData} PageData
@@ -18,7 +21,7 @@ import { page } from "./fixtures/build.mjs";
  */
 
 /** @type {Record<string, (data: PageData) => Transport|Promise<Transport>>} */
-const TRANSPORTS = { baked };
+const TRANSPORTS = { baked, socket: (data) => new FakeServer(data).transport() };
 
 const data = JSON.stringify(page({ rivets: 5, ticks: 21 }));
 const fresh = () => /** @type {PageData} */ (JSON.parse(data));

@@ -37,10 +37,17 @@ const GONE = "The server does not answer.";
  * @returns {Transport}
  */
 export function socket(address, options = {}) {
-  return new Line(address, options);
+  const line = new Line(address, options);
+  return {
+    open: () => line.open(),
+    ask: (ask) => line.ask(ask),
+    onStale: (listener) => line.onStale(listener),
+    dropped: (refs) => line.dropped(refs),
+    need: (refs) => line.need(refs),
+    close: () => line.close(),
+  };
 }
 
-/** @implements {Transport} */
 class Line {
   #address;
   #connect;
