@@ -16,6 +16,7 @@ export { compile } from "./core/tracks.js";
 
 // transports: who answers
 export { baked } from "./transports/baked.js";
+export { comm } from "./transports/comm.js";
 export { socket } from "./transports/socket.js";
 
 // render: pictures
@@ -28,4 +29,5 @@ export { LinkElement } from "./inline/link.js";
 export { NumberElement } from "./inline/number.js";
 export { WordElement } from "./inline/word.js";
 export { define, start } from "./adapters/page.js";
+export { widget } from "./adapters/anywidget.js";
 export { connect, serve } from "./adapters/trame.js";

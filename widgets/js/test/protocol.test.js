@@ -21,7 +21,12 @@ import { FakeServer } from "./transports/servers.mjs";
  */
 
 /** @type {Record<string, (data: PageData) => Transport|Promise<Transport>>} */
-const TRANSPORTS = { baked, socket: (data) => new FakeServer(data).transport() };
+const TRANSPORTS = {
+  baked,
+  comm: (data) => comm(kernel(data)),
+  "comm without buffers": (data) => comm(kernel(data, { buffers: false })),
+  socket: (data) => new FakeServer(data).transport(),
+};
 
 const data = JSON.stringify(page({ rivets: 5, ticks: 21 }));
 const fresh = () => /** @type {PageData} */ (JSON.parse(data));

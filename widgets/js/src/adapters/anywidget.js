@@ -1,0 +1,123 @@
+/**
+ * A figure in a cell of a notebook, as a view of a widget: its point is the widget's `time` and `params`, both ways.
+ *
+ * The view asks the kernel for itself; what the widget keeps is small JSON, which other widgets may be linked to.
+ */
+
+import { comm } from "../transports/comm.js";
+import { make } from "../ui/elements.js";
+import { pageStyles } from "../ui/page-styles.js";
+import { define } from "./page.js";
+
+/**
+ * @typedef {import("../ui/figure-element.js").FigureElement} FigureElement
+ *
+ * @typedef {object} Model what a notebook gives to a view: as anywidget has it
+ * @property {(name: string) => any} get
+ * @property {(name: string, value: any) => void} set
+ * @property {() => void} save_changes
+ * @property {(event: string, listener: (...values: any[]) => void) => void} on
+ * @property {(event: string, listener: (...values: any[]) => void) => void} off
+ * @property {(message: any) => void} send
+ */
+
+/**
+ * Show a widget.
+ * @param {{model: Model, el: HTMLElement}} view
+ * @returns {() => void} what ends it
+ */
+export function widget({ model, el }) {
+  define();
+  el.dataset.lmSuppressShortcuts = "true"; // keys belong to the figure while it has the focus
+  const { shadow, figure } = framed();
+  el.append(shadow);
+  const connect = () => comm(portOf(model), { onReopen: reopen });
+  const reopen = () => {
+    figure.setAttribute("point", figure.write());
+    figure.transport = connect();
+  };
+  const { isSame, take } = synced(model, figure);
+  const given = () => { if (figure.reader && !isSame()) take(); };
+  const poster = () => posterOf(el, model.get("_poster"));
+  figure.addEventListener("r4d-live", () => {
+    if (!isSame()) take();
+    figure.reader?.on("point", () => give(model, figure));
+  });
+  figure.addEventListener("r4d-commit", () => { const image = poster(); if (image) image.hidden = true; });
+  model.on("change:time", given);
+  model.on("change:params", given);
+  figure.transport = connect();
+  return () => {
+    model.off("change:time", given);
+    model.off("change:params", given);
+    const transport = figure.transport;
+    figure.remove();
+    transport?.close();
+    const image = poster();
+    if (image) image.hidden = false;
+  };
+}
+
+/** A figure, in a root of its own so that a notebook's styles stay outside. */
+function framed() {
+  const shadow = make("div", { class: "r4d-cell" });
+  const figure = /** @type {FigureElement} */ (document.createElement("r4d-figure"));
+  const root = shadow.attachShadow({ mode: "open" });
+  root.append(make("style", {}, [pageStyles]), figure);
+  return { shadow, figure };
+}
+
+/** @param {Model} model @returns {import("../transports/comm.js").Port} */
+function portOf(model) {
+  return {
+    send: (message) => model.send(message),
+    listen: (listener) => {
+      const heard = (/** @type {any} */ message, /** @type {any[]} */ buffers) => listener(message, buffers ?? []);
+      model.on("msg:custom", heard);
+      return () => model.off("msg:custom", heard);
+    },
+  };
+}
+
+/** How a figure takes its point from a widget. @param {Model} model @param {FigureElement} figure */
+function synced(model, figure) {
+  const isSame = () => {
+    const point = figure.reader?.point;
+    return point === undefined || (point.time === model.get("time") && isEqual(point.parameters, model.get("params")));
+  };
+  const take = () => {
+    const known = new Set(figure.reader?.manifest.parameters.map(({ name }) => name));
+    const given = Object.entries(model.get("params") ?? {}).filter(([name]) => known.has(name));
+    figure.reader?.change({ time: model.get("time"), parameters: Object.fromEntries(given) }, { gesture: "kernel" });
+  };
+  return { isSame, take };
+}
+
+/** Let a widget know where its reader is. @param {Model} model @param {FigureElement} figure */
+function give(model, figure) {
+  const point = figure.reader?.point;
+  if (point === undefined) return;
+  const isOther = point.time !== model.get("time") || !isEqual(point.parameters, model.get("params"));
+  if (!isOther) return;
+  model.set("time", point.time);
+  model.set("params", { ...point.parameters });
+  model.save_changes();
+}
+
+/** @param {any} a @param {any} b */
+function isEqual(a, b) {
+  return JSON.stringify(sorted(a)) === JSON.stringify(sorted(b));
+}
+
+/** @param {any} value */
+function sorted(value) {
+  return Object.entries(value ?? {}).sort(([a], [b]) => (a < b ? -1 : 1));
+}
+
+/** The picture that stands for the figure until it lives. @param {HTMLElement} el @param {string} name
+ * @returns {HTMLElement | null} */
+function posterOf(el, name) {
+  if (!name) return null;
+  const images = /** @type {NodeListOf<HTMLElement>} */ (el.ownerDocument.querySelectorAll("img[data-r4d-poster]"));
+  return [...images].find((image) => image.dataset.r4dPoster === name) ?? null;
+}
