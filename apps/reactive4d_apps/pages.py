@@ -1,5 +1,6 @@
 """Pages: a scene becomes a file that any browser opens, and what became of it is told."""
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,7 @@ def baked(
         scene: that it shows.
         path: of the page.
         times: (start, stop), seconds; by default those of the scene.
-        title: what stands above it.
+        title: what stands above it; by default the words of the file's name.
         limit: MB, beyond which the page is refused.
         width: of the terminal, in characters.
 
@@ -36,7 +37,9 @@ def baked(
         The lines.
     """
     span = None if times is None else tuple(times)
-    report = scene.bake(path, times=span, title=title, limit=round(limit * MEGABYTE))
+    words = " ".join(re.findall(r"[^\W_]+", Path(path).stem))
+    called = title or words[:1].upper() + words[1:]
+    report = scene.bake(path, times=span, title=called, limit=round(limit * MEGABYTE))
     yield from summary(Path(path), report.problems, width)
 
 

@@ -177,6 +177,7 @@ def test_a_page_is_called_like_its_script(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.chdir(tmp_path)
     assert main(["bake", str(FIGURE), "--times", "0", "1"]) == 0
     assert [path.name for path in tmp_path.iterdir()] == ["figure1_moving.html"]
+    assert "<title>Figure1 moving</title>" in (tmp_path / "figure1_moving.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -185,6 +186,7 @@ def test_a_page_is_called_like_its_script(tmp_path: Path, monkeypatch: pytest.Mo
         (["none.scefo"], "none.scefo: No such file"),
         ([str(FIGURE), "-o", "page.txt"], "hint: 'page.html'"),
         ([str(FIGURE), "-o", "nowhere/page.html"], "nowhere: no such folder"),
+        ([str(FIGURE), "-o", "."], "'.': a page is a file"),
         ([str(FIGURE), "--limit", "0.01"], "more than its limit of 10.0 KB"),
         ([str(FIGURE), "--times", "4", "1"], "1 is before 4"),
         ([str(FIGURE.with_name("sphere.off"))], "unknown format of scenes '.off'"),
