@@ -13,7 +13,7 @@ from pathlib import Path
 
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
-from reactive4d_apps import stories
+from reactive4d_apps import stories, sweeps
 from reactive4d_apps.demos import demonstrated
 from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import baked
@@ -70,6 +70,8 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
     elif words.command == "serve":
         browser = webbrowser.open if words.open else None
         yield from opened(found(words.place), port=words.port, host=words.host, browser=browser, width=width)
+    elif words.command == "sweep":
+        yield from sweeps.swept(words, width=width)
     elif words.script is None:
         yield from stories.story(words.at or stories.TIMES, width=width)
     else:
@@ -108,6 +110,8 @@ def _parser() -> argparse.ArgumentParser:
     serve.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=about)
     about = "do not open a browser"
     serve.add_argument("--no-open", dest="open", action="store_false", help=about)
+
+    sweeps.add_command(commands)
 
     about = "print what the scene of a script shows at some instants"
     shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")
