@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.engine import Cell, engine
-from reactive4d.engine.checks import reached
-from reactive4d.engine.frames import LOCK
 from reactive4d.engine.kinds import AXIS, SOURCE
-from reactive4d.sweeping.asking import Failed, TooLongError
+from reactive4d.sweeping.asking import Failed, TooLongError, asked
 from reactive4d.sweeping.columns import Column
 from reactive4d.sweeping.contexts import Context, Varying
 from reactive4d.sweeping.evaluators import Evaluator
@@ -22,6 +20,7 @@ from reactive4d.sweeping.measures import signals_of
 from reactive4d.sweeping.memories import Memory
 from reactive4d.sweeping.pictures import Picture
 from reactive4d.sweeping.plans import Plan, Ranges
+from reactive4d.sweeping.readings import below
 from reactive4d.sweeping.subjects import Recipe, Subject
 from reactive4d.sweeping.values import Encoded, Kind, encode
 
@@ -88,36 +87,47 @@ class Visitor:
         self.evaluator = Evaluator(Memory(loops, budget=int(_MEMORY * engine.budget)))
         self.limit = max(1, min(MOST_ROWS, MOST_BYTES // max(1, job.row)))
         self.most = self.limit
-        self.counter = counter if counter is not None else Counter(self.signals.values())
+        self.counter = counter if counter is not None else Counter()
 
     def visit(self, start: int, stop: int, seconds: float) -> Iterator[Part]:
-        """Visit the points from one place to another; begin no tile once so many seconds are over."""
-        begun = perf_counter()
-        while start < stop and (not seconds or perf_counter() - begun < seconds):
+        """Visit the points from one place to another; begin no other tile once so many seconds are over."""
+        begun, cpu, first = perf_counter(), process_time(), start
+        while start < stop and (not seconds or start == first or perf_counter() - begun < seconds):
             ranges, end = self.job.plan.tile(start, stop, self.limit)
             now = perf_counter()
             try:
-                yield self._part(ranges, start, end, None if end - start == 1 else now + LONGEST)
+                part = self._part(ranges, start, end, None if end - start == 1 else now + LONGEST)
             except TooLongError as late:
+                # What was asked is remembered, and will be there for the smaller tile.
                 self.limit = max(1, min(end - start - 1, int((end - start) * late.share / 2)))
                 continue
             if perf_counter() - now < LONGEST / 4:
                 self.limit = min(self.most, 4 * self.limit)
             start = end
+            yield replace(part, seconds=process_time() - cpu)
+            cpu = process_time()
 
     def _part(self, ranges: Ranges, start: int, end: int, deadline: float | None) -> Part:
-        cpu = process_time()
         grid = self.job.grid
         mask = grid.mask(ranges)
         answers: dict[str, Encoded] = {}
         if mask is None or mask.any():
             context = self.context(ranges, mask)
+            if not self.counter.cells:
+                self._look(context)
             columns = self.evaluator.evaluate(self.signals.values(), context, deadline=deadline)
             for name, signal in self.signals.items():
                 answers[name] = self._encoded(name, columns[signal], ranges, context)
         visited = end - start if mask is None else int(mask.sum())
         evaluated, needed = self.counter.count(self.evaluator.rows, visited)
-        return Part(ranges, start, end, answers, mask, evaluated, needed, process_time() - cpu)
+        return Part(ranges, start, end, answers, mask, evaluated, needed, 0.0)
+
+    def _look(self, context: Context) -> None:
+        """Ask at one point, to see what is read."""
+        t, given = context.at(context.indices(())[0].tolist())
+        for signal in self.signals.values():
+            asked(signal, t, given)
+        self.counter.look(self.signals.values())
 
     def context(self, ranges: Ranges, mask: NDArray[np.bool_] | None) -> Context:
         """A part of the grid as what is asked about together: its dimensions are the loops."""
@@ -182,25 +192,18 @@ def _picture(picture: Picture, subject: Subject, t: float, given: Mapping[str, A
 class Counter:
     """How many answers were needed, and how many had to be computed."""
 
-    def __init__(self, signals: Iterable[Cell]) -> None:
-        self.signals = list(signals)
-        self.cells: dict[Cell, None] = {}
+    def __init__(self) -> None:
+        self.cells = 0
+        self.clock = engine.clock
         self.rows = 0
-        self.visits = 0
-        self._look()
-        self.runs = sum(cell.runs for cell in self.cells)
+
+    def look(self, signals: Iterable[Cell]) -> None:
+        """Find out how many cells answer for every point; the signals have been asked at one."""
+        self.cells = sum(cell.kind not in (SOURCE, AXIS) for cell in below(signals))
 
     def count(self, rows: int, visited: int) -> tuple[int, int]:
-        """Answers of cells that were computed and that were needed since the last time."""
-        if self.visits in (0, 1, 8):  # by and by it is seen what Python functions read
-            self._look()
-        self.visits += 1
-        runs = sum(cell.runs for cell in self.cells)
-        evaluated = runs - self.runs + rows - self.rows
-        self.runs, self.rows = runs, rows
-        return evaluated, visited * len(self.cells)
-
-    def _look(self) -> None:
-        with LOCK:
-            found = reached(self.signals)
-        self.cells.update(dict.fromkeys([cell for cell in found if cell.kind not in (SOURCE, AXIS)]))
+        """Answers that were computed and that were needed since the last time."""
+        clock = engine.clock  # answers that the engine has stored
+        evaluated = clock - self.clock + rows - self.rows
+        self.clock, self.rows = clock, rows
+        return evaluated, visited * self.cells

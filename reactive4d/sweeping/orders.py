@@ -9,14 +9,10 @@ least. What the memo has room for beyond the latest answer comes on top of that.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
-from typing import Any
 
 from reactive4d.engine import Cell
-from reactive4d.engine.checks import reached
-from reactive4d.engine.evictions import tables
-from reactive4d.engine.frames import LOCK
 from reactive4d.engine.kinds import AXIS, SOURCE
-from reactive4d.engine.segments import ELSEWHERE
+from reactive4d.sweeping.readings import below
 
 __all__ = ["Reader", "best_order", "cost", "readers_of"]
 
@@ -80,20 +76,12 @@ def readers_of(cells: Iterable[Cell], dimensions: Mapping[str, int], *, time: in
         dimensions: which dimension moves a parameter, by its name.
         time: the dimension that moves time, if any.
     """
-    with LOCK:
-        found = reached(cells)
-        below: dict[Cell, list[Cell]] = {}
-        for cell in found:
-            entries: list[Any] = [*cell.inputs]
-            for table in tables(cell):
-                for segment in table.segments:
-                    entries.extend(segment.reads)
-            below[cell] = list(dict.fromkeys([entry[0] if type(entry) is ELSEWHERE else entry for entry in entries]))
-        reads: dict[Cell, frozenset[int]] = {}
-        for cell in _upwards(found, below):
-            own = _own(cell, dimensions, time)
-            reads[cell] = own.union(*[reads.get(other, frozenset()) for other in below[cell]])
-        return [Reader(reads[c], max(c.cost, _CHEAP)) for c in found if c.kind not in (SOURCE, AXIS)]
+    found = below(cells)
+    reads: dict[Cell, frozenset[int]] = {}
+    for cell in _upwards(found):
+        own = _own(cell, dimensions, time)
+        reads[cell] = own.union(*[reads.get(other, frozenset()) for other in found[cell]])
+    return [Reader(reads[c], max(c.cost, _CHEAP)) for c in found if c.kind not in (SOURCE, AXIS)]
 
 
 def _own(cell: Cell, dimensions: Mapping[str, int], time: int | None) -> frozenset[int]:
@@ -107,10 +95,10 @@ def _own(cell: Cell, dimensions: Mapping[str, int], time: int | None) -> frozens
     return frozenset([time]) if lo <= hi and (lo > -INF or hi < INF) else frozenset()
 
 
-def _upwards(cells: Sequence[Cell], below: Mapping[Cell, Sequence[Cell]]) -> list[Cell]:
+def _upwards(found: Mapping[Cell, Sequence[Cell]]) -> list[Cell]:
     """The cells, what is read before who reads it; where there is a ring, in any order."""
     done: dict[Cell, None] = {}
-    for root in cells:
+    for root in found:
         todo: list[tuple[Cell, bool]] = [(root, False)]
         opened: set[Cell] = set()
         while todo:
@@ -120,5 +108,5 @@ def _upwards(cells: Sequence[Cell], below: Mapping[Cell, Sequence[Cell]]) -> lis
             elif cell not in done and cell not in opened:
                 opened.add(cell)
                 todo.append((cell, True))
-                todo.extend((other, False) for other in below[cell])
+                todo.extend((other, False) for other in found[cell])
     return list(done)

@@ -71,15 +71,17 @@ class Reporter(AbstractContextManager["Reporter"]):
         self.before = self.done = done
         self.failed = failed
         self.evaluated = self.needed = 0
+        self.cpu = 0.0  # seconds of the processor that the points took, wherever that was
         self.begun = self.told = perf_counter()
         self.last = -1  # how many were done when the listener was told
 
-    def add(self, done: int, *, failed: int = 0, evaluated: int = 0, needed: int = 0) -> None:
+    def add(self, done: int, *, failed: int = 0, evaluated: int = 0, needed: int = 0, cpu: float = 0.0) -> None:
         """So many more points."""
         self.done += done
         self.failed += failed
         self.evaluated += evaluated
         self.needed += needed
+        self.cpu += cpu
         if self.listener is not None and perf_counter() - self.told >= OFTEN:
             self.told, self.last = perf_counter(), self.done
             self.listener(self.report())

@@ -6,13 +6,12 @@ from typing import Any
 
 from reactive4d.arrays import same
 from reactive4d.engine import Axis, Cell
-from reactive4d.engine.checks import reached
-from reactive4d.engine.frames import LOCK
 from reactive4d.errors import Reactive4dError, ShapeError, hint
 from reactive4d.illustrations.illustration import Illustration
 from reactive4d.illustrations.settling import values_of
 from reactive4d.model.scenes import Scene
 from reactive4d.sweeping.levers import Lever, lever_of, levers_of
+from reactive4d.sweeping.readings import below
 
 __all__ = ["Recipe", "Subject", "subject_of"]
 
@@ -48,9 +47,7 @@ class Subject:
         """The same, with the parameters known that some signals are seen to read."""
         if self.is_closed:
             return self
-        with LOCK:
-            found = [cell for cell in reached(signals) if isinstance(cell, Axis)]
-        return replace(self, levers={axis.name: lever_of(axis) for axis in found})
+        return replace(self, levers={axis.name: lever_of(axis) for axis in below(signals) if isinstance(axis, Axis)})
 
     def recipe(self) -> "Recipe":
         """How another process makes the same.

@@ -99,7 +99,7 @@ def sweep(
     folder = Folder(files if files is not None or path is None else path.with_name(f"{path.name}.files"))
     begun = perf_counter()
 
-    counter = Counter(signals.values())
+    counter = Counter()
     drawn = [name for name, given in measure.items() if isinstance(given, Picture)]
     plan, kinds, row = _planned(path, grid, signals, about, drawn)
     is_away = workers is not None or client is not None
@@ -193,7 +193,8 @@ def _gather(part: Part, store: Any, report: Reporter, grid: Grid, *, is_strict: 
                 error.add_note(f"while measuring {name or 'anything'} at {told}")
                 raise error
     failed = store.put(part)
-    report.add(part.stop - part.start, failed=failed, evaluated=part.evaluated, needed=part.needed)
+    done = part.stop - part.start
+    report.add(done, failed=failed, evaluated=part.evaluated, needed=part.needed, cpu=part.seconds)
 
 
 def _attrs(about: Subject, plan: Plan, grid: Grid, report: Reporter, begun: float) -> dict[str, Any]:
@@ -206,6 +207,7 @@ def _attrs(about: Subject, plan: Plan, grid: Grid, report: Reporter, begun: floa
         "order": ", ".join([grid.dimensions[d].name for d in plan.order]),
         "points": grid.size,
         "seconds": round(perf_counter() - begun, 3),
+        "cpu_seconds": round(report.cpu, 3),
         "hits": round(report.report().hits, 4),
         **({"where": getattr(grid.where.function, "__name__", "where")} if grid.where is not None else {}),
         **({"comment": about.doc} if about.doc else {}),

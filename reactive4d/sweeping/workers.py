@@ -44,7 +44,8 @@ class _Worker:
         self.process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self._told = told
         self._write(parcel)
-        threading.Thread(target=self._listen, daemon=True).start()
+        self._ear = threading.Thread(target=self._listen, daemon=True)
+        self._ear.start()
 
     def _write(self, message: Any) -> None:
         assert self.process.stdin is not None
@@ -61,7 +62,7 @@ class _Worker:
         try:
             while True:
                 self._told.put((self, read(self.process.stdout)))
-        except (OSError, EOFError, pickle.UnpicklingError):
+        except (OSError, EOFError, pickle.UnpicklingError):  # it has died, perhaps in the middle of a word
             self._told.put((self, None))
 
     def close(self) -> None:
@@ -69,6 +70,7 @@ class _Worker:
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
+        self._ear.join()  # nobody reads from a pipe that is closed
         for pipe in (self.process.stdin, self.process.stdout):
             if pipe is not None:
                 with suppress(OSError):

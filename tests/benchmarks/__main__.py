@@ -20,6 +20,7 @@ from .reports import Section, conditions, data, markdown, text, verdicts
 from .runs import Run
 from .sampling import sampling
 from .scenes import held_scene
+from .sweeping import sweeping
 
 BENCHMARKS = {
     "asking": asking,
@@ -33,6 +34,7 @@ BENCHMARKS = {
     "deforming": deforming,
     "modelling": modelling,
     "pages": paging,
+    "sweeps": sweeping,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 

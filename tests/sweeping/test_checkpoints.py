@@ -51,7 +51,7 @@ def test_what_is_in_the_store_is_what_would_be_in_memory(tmp_path: Path, blocks:
     xarray.testing.assert_identical(here.drop_attrs(), there.load().drop_attrs())
     for name in ("check_p", "time", "number"):
         assert here[name].attrs == there[name].attrs
-    volatile = {"created", "seconds", "hits", "reactive4d_sweep"}
+    volatile = {"created", "seconds", "cpu_seconds", "hits", "reactive4d_sweep"}
     assert {k: v for k, v in here.attrs.items() if k not in volatile} == {
         k: v for k, v in there.attrs.items() if k not in volatile
     }
