@@ -69,11 +69,13 @@ class Line:
         self.name = name
         self._loop = asyncio.get_running_loop()
         self._bucket = Bucket(limits.rate, limits.burst)
+        self._lines_of_log = Bucket(0.2, 30.0)
         self._sending = asyncio.Lock()
         self._working: set[asyncio.Task[None]] = set()
         self.heard = 0
         self._faults = 0
         self._asked = 0
+        self._room = asyncio.Semaphore(2 * limits.asks)  # of answers that are computed or sent
         self._news: dict[str, Any] | None = None
         self._has_news = asyncio.Event()
         self._answers = answers(self._tell)
@@ -113,6 +115,8 @@ class Line:
             return await self._refuse(_number(message), told)
         if self._asked >= self.limits.asks:
             return await self._refuse(_number(message), f"more than {self.limits.asks} asks at one time")
+        # Who asks again as soon as the answer begins to arrive does nothing wrong; but who takes none has to wait.
+        await self._room.acquire()
         self._asked += 1
         task = asyncio.create_task(self._reply(message))
         self._working.add(task)
@@ -122,7 +126,7 @@ class Line:
     async def _refuse(self, number: int | None, reason: str) -> bool:
         """Say what was wrong, to the reader and to the log; False if it was wrong too often."""
         self._faults += 1
-        LOG.warning("%s: refused %s", self.name, reason)
+        self._warn(f"refused {reason}")
         await self._send({"id": number, "type": "error", "text": f"refused: {reason}"})
         if self._faults < self.limits.faults:
             return True
@@ -130,11 +134,16 @@ class Line:
         await self.end(WSCloseCode.POLICY_VIOLATION, b"too many faults")
         return False
 
+    def _warn(self, text: str) -> None:
+        """Note it down; who lies without end fills no log."""
+        if self._lines_of_log.has(1.0):
+            LOG.warning("%s: %s", self.name, text.replace("\n", " "))
+
     async def _quietly(self, message: dict[str, Any]) -> None:
         try:
             await self.turns.run(lambda: self._answers.receive(message), self.limits.thinking)
         except SlowError:
-            LOG.warning("%s: has to wait", self.name)
+            self._warn("has to wait")
         except Exception:  # a mistake of ours must not end what others have
             LOG.exception("%s: not noted", self.name)
 
@@ -143,18 +152,17 @@ class Line:
         try:
             reply, buffers = await self.turns.run(lambda: self._answers.receive(message), self.limits.thinking)
         except SlowError as error:
-            LOG.warning("%s: %s", self.name, error)
+            self._warn(str(error))
             reply, buffers = {"id": number, "type": "error", "text": str(error)}, []
         except Exception:  # a mistake of ours must not end what others have
             LOG.exception("%s: no answer", self.name)
             reply, buffers = {"id": number, "type": "error", "text": "this went wrong on the server; see its log"}, []
         if reply is not None and reply.get("type") == "error":
-            LOG.warning("%s: %s", self.name, str(reply.get("text"))[:200])
-        try:
-            if reply is not None:
-                await self._send(reply, buffers)
-        finally:
-            self._asked -= 1
+            self._warn(str(reply.get("text"))[:200])
+        self._asked -= 1
+        if reply is not None:
+            await self._send(reply, buffers)
+        self._room.release()
 
     # -- what goes -------------------------------------------------------------------------------------------------
 

@@ -51,24 +51,32 @@ class Turns:
             SlowError: it took longer. It cannot be stopped; until it has ended this reader has no turn.
             Exception: whatever it raises.
         """
-        task = asyncio.ensure_future(self._wait_and_run(work))
+        begun = asyncio.Event()
+        task = asyncio.ensure_future(self._wait_and_run(work, begun))
         try:
             return await asyncio.wait_for(asyncio.shield(task), patience)
         except TimeoutError:
             if task.done():
                 return task.result()
-            task.add_done_callback(_forgotten)
+            self._forget(task, begun)
             raise SlowError(f"no answer within {patience:g} s") from None
         except asyncio.CancelledError:
-            task.add_done_callback(_forgotten)
+            self._forget(task, begun)
             raise
 
-    async def _wait_and_run(self, work: Callable[[], T]) -> T:
+    async def _wait_and_run(self, work: Callable[[], T], begun: asyncio.Event) -> T:
         async with self._lock:
+            begun.set()
             return await asyncio.get_running_loop().run_in_executor(self._pool, work)
 
+    def _forget(self, task: "asyncio.Task[T]", begun: asyncio.Event) -> None:
+        """Nobody waits for it any more: what has not begun will not."""
+        if not begun.is_set():
+            task.cancel()
+        task.add_done_callback(_forgotten)
 
-def _forgotten(task: "asyncio.Future[T]") -> None:
-    """Nobody waits for it any more; what it raised is nobody's."""
+
+def _forgotten(task: "asyncio.Task[T]") -> None:
+    """What it raised is nobody's."""
     if not task.cancelled():
         task.exception()
