@@ -27,7 +27,7 @@ def numbered(frame: Any, view: View, size: tuple[int, int]) -> tuple[list[str], 
     names = [name for name, node in frame.items() if node.primitive == "mesh"]
     colors = {name: ((i + 1) / 255.0, 0.0, 0.0, 1.0) for i, name in enumerate(names)}
     found = picture(composed(frame, colors=colors), view, size=size, shader=None)
-    return names, np.where(found.colors[..., 3] == 255, found.colors[..., 0], 0)
+    return names, np.where(found.colors[..., 3] == 1.0, np.rint(255 * found.colors[..., 0]), 0)
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ def exposed(
         bounds: (2, 3), the box of all that is drawn, over all times.
         size: width and height, pixels.
         ratio: how many of them are one that lines are measured in.
-        finer: how many of them, in a row, become one.
+        finer: how many are drawn for one of them, along each edge.
         theme: the surroundings.
         edges: whether creases are drawn.
         shadows: whether shadows are.
@@ -56,49 +56,39 @@ def exposed(
     def drawn(shining: tuple[Lamp, ...]) -> Picture:
         shader = shading(sky, shining, inverse(view.matrix), rim=theme.rim)
         crease = 1.1 * ratio if edges else 0.0
-        return picture(composition, view, size=size, shader=shader, stroke=2 * ratio, dot=8 * ratio, crease=crease)
+        strokes: Any = {"stroke": 2.0 * ratio, "dot": 8.0 * ratio, "crease": crease}
+        return picture(composition, view, size=size, shader=shader, finer=finer, **strokes)
 
     whole = drawn(lamps)
-    colors = whole.colors[..., :3] / 255.0
-    paper: Any = np.broadcast_to(theme.paper, colors.shape)
+    colors = whole.colors[..., :3]
+    paper: Any = np.broadcast_to(np.array(theme.paper, np.float32), colors.shape)
     if shadows and composition.opaque is not None:
         for i, lamp in enumerate(lamps):
-            shade = _shade(composition, lamp, whole, view, finer) if lamp.shadows else None
+            shade = _shade(composition, lamp, whole, view) if lamp.shadows else None
             if shade is not None and shade.any():
-                without = drawn((*lamps[:i], *lamps[i + 1 :])).colors[..., :3] / 255.0
-                colors = _darkened(colors, without, shade)
+                colors = _darkened(colors, drawn((*lamps[:i], *lamps[i + 1 :])).colors[..., :3], shade)
         floor = floors.floor_of(*bounds)
         if floor is not None:
-            below = distances(composition, floor.eye, floors.SIZE)
-            dark = floors.floor_shade(floor, below, view, (size[0] // finer, size[1] // finer))
-            paper = paper * (1.0 - theme.shade * _larger(dark, finer))[..., None]
-    hidden = whole.colors[..., 3:] / 255.0
-    return np.rint(255.0 * (colors + paper * (1.0 - hidden))).clip(0, 255).astype(np.uint8)
+            dark = floors.floor_shade(floor, distances(composition, floor.eye, floors.SIZE), view, size)
+            paper = paper * (1.0 - theme.shade * dark)[..., None]
+    return np.rint(255.0 * (colors + paper * (1.0 - whole.colors[..., 3:]))).clip(0, 255).astype(np.uint8)
 
 
-def _shade(composition: Composition, lamp: Lamp, whole: Picture, view: View, finer: int) -> Array | None:
+def _shade(composition: Composition, lamp: Lamp, whole: Picture, view: View) -> Array | None:
     """(H, W), which share of a lamp's light does not get there; None where it sees nothing."""
     assert composition.opaque is not None
     points = composition.opaque.points
     eye = lamp_eye(lamp, points.min(axis=0).astype(np.float64), points.max(axis=0).astype(np.float64))
-    if eye is None:
+    there = np.isfinite(whole.depths)
+    if eye is None or not there.any():
         return None
-    height, width = whole.depths.shape
-    blocks = whole.depths.reshape(height // finer, finer, width // finer, finer)
-    depths = np.where(np.isnan(blocks), np.inf, blocks).min(axis=(1, 3))
-    there = np.isfinite(depths)
-    places, normals = places_of(np.where(there, depths, np.nan), view)
-    shade = np.zeros(depths.shape)
+    places, normals = places_of(whole.depths.astype(np.float64), view)
+    shade = np.zeros(whole.depths.shape)
     shade[there] = 1.0 - cast(places[there], normals[there], distances(composition, eye, SIZE), eye)
-    return _larger(shade, finer)
+    return shade
 
 
-def _larger(shade: Array, finer: int) -> Array:
-    """Soft things need not be known as finely as they are drawn."""
-    return shade.repeat(finer, axis=0).repeat(finer, axis=1)
-
-
-def _darkened(colors: Array, without: Array, shade: Array) -> Array:
+def _darkened(colors: Any, without: Any, shade: Array) -> Any:
     """Colours less what a lamp adds to them, where it is shaded; reckoned in linear light."""
     where = shade > 0.0
     full, less = srgb_to_linear(colors[where]), srgb_to_linear(without[where])

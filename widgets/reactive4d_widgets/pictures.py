@@ -26,12 +26,12 @@ class Picture:
     """What was drawn.
 
     Attributes:
-        colors: (H, W, 4), sRGB, and how much of what is behind is hidden; the colours are multiplied by that.
+        colors: (H, W, 4), sRGB from 0 to 1, multiplied by the fourth: how much of what is behind is hidden.
         depths: (H, W), metres ahead of the eye of the nearest surface that lets no light through; NaN where none is.
     """
 
-    colors: Pixels
-    depths: NDArray[np.float64]
+    colors: NDArray[np.float32]
+    depths: NDArray[np.float32]
 
 
 def picture(
@@ -40,6 +40,7 @@ def picture(
     *,
     size: tuple[int, int],
     shader: str | None,
+    finer: int = 1,
     stroke: float = 2.0,
     dot: float = 8.0,
     crease: float = 0.0,
@@ -51,6 +52,8 @@ def picture(
         view: from where.
         size: width and height, pixels.
         shader: how surfaces are lit; None shows their plain colours.
+        finer: how many pixels are drawn for one, along each edge: what is drawn larger and made smaller has smooth
+            edges, lines too, on every card.
         stroke: how wide lines are, pixels.
         dot: how wide points are, pixels.
         crease: how wide the edges of surfaces are, pixels; 0 leaves them out.
@@ -58,7 +61,8 @@ def picture(
     Raises:
         EvaluationError: there is no OpenGL on this machine.
     """
-    with _drawn_on(size) as plotter:
+    stroke, dot, crease = finer * stroke, finer * dot, finer * crease
+    with _drawn_on((finer * size[0], finer * size[1])) as plotter:
         plotter.add_light(pv.Light(light_type="headlight"))  # a lit surface is one on which some lamp of VTK's shines
         for actor in _actors(composition, shader, view=view, stroke=stroke, dot=dot, crease=crease):
             plotter.add_actor(actor, reset_camera=False, render=False)
@@ -68,11 +72,11 @@ def picture(
             plotter.renderer.SetOcclusionRatio(0.0)
         near, far = _range(composition, view)
         _stand(plotter, view.matrix, view.fov, (near, far))
-        colors = np.array(plotter.screenshot(return_img=True, transparent_background=True))
-        share = _depth_buffer(plotter)
-        with np.errstate(divide="ignore"):
-            depths = near * far / (far - share * (far - near))
-        return Picture(colors, np.where(share < 1.0, depths, np.nan))
+        found = plotter.screenshot(return_img=True, transparent_background=True)
+        colors: Any = sum(part.astype(np.float32) for part in _parts(found, finer))
+        share = _nearest(_parts(_depth_buffer(plotter), finer))
+        depths = near * far / (far - share * (far - near))
+        return Picture(colors / np.float32(255 * finer * finer), np.where(share < 1.0, depths, np.float32(np.nan)))
 
 
 def distances(composition: Composition, eye: Eye, size: int) -> NDArray[np.float64]:
@@ -94,7 +98,7 @@ def distances(composition: Composition, eye: Eye, size: int) -> NDArray[np.float
             plotter.camera.parallel_projection = True
             plotter.camera.parallel_scale = eye.half
         plotter.screenshot(return_img=True)
-        share = _depth_buffer(plotter)
+        share = _depth_buffer(plotter).astype(np.float64)
         near, far = eye.near, eye.far
         depths = near + share * (far - near) if eye.half is not None else near * far / (far - share * (far - near))
         return np.where(share < 1.0, depths, np.nan)
@@ -124,7 +128,19 @@ def _stand(plotter: Any, matrix: Any, fov: float, span: tuple[float, float]) -> 
     camera.clipping_range = span
 
 
-def _depth_buffer(plotter: Any) -> NDArray[np.float64]:
+def _parts(pixels: Any, finer: int) -> list[Any]:
+    """The first pixels of all that become one, the second ones, and so on."""
+    return [pixels[i::finer, j::finer] for i in range(finer) for j in range(finer)]
+
+
+def _nearest(parts: list[Any]) -> Any:
+    least = parts[0]
+    for part in parts[1:]:
+        least = np.minimum(least, part)
+    return least
+
+
+def _depth_buffer(plotter: Any) -> NDArray[np.float32]:
     """(H, W), from 0 at the nearest that can be seen to 1 at the farthest."""
     reader: Any = vtkWindowToImageFilter()
     reader.SetInput(plotter.render_window)
@@ -134,7 +150,7 @@ def _depth_buffer(plotter: Any) -> NDArray[np.float64]:
     reader.Update()
     found: Any = pv.ImageData(reader.GetOutput())
     width, height = plotter.window_size
-    shares: NDArray[np.float64] = np.array(found.active_scalars, np.float64).reshape(height, width)[::-1]
+    shares: NDArray[np.float32] = np.array(found.active_scalars, np.float32).reshape(height, width)[::-1]
     return shares
 
 

@@ -113,23 +113,21 @@ def poster(
     given = {**(parameters or {}), **values}
     frame, view, box = seen(subject, t, aspect=width / height, camera=camera, parameters=given, bounds=bounds)
     composition = composed(frame)
-    # Drawn larger and made smaller: smooth edges, of lines and letters too, on every card.
-    finer = 2 if max(width, height) * 2 <= LARGEST else 1
-    ratio = finer * max(1.0, height / 600.0)
+    ratio = max(1.0, height / 600.0)
     pixels = exposed(
         composition,
         view,
         light=light_of(frame.values(), view),
         bounds=box,
-        size=(width * finer, height * finer),
+        size=(width, height),
         ratio=ratio,
-        finer=finer,
+        finer=2 if max(width, height) * 2 <= LARGEST else 1,
         theme=theme,
         edges=edges,
         shadows=shadows,
     )
     image: Any = Image.fromarray(pixels)
-    image = captioned(image, composition.labels, view, ratio=ratio, paper=theme.paper).reduce(finer)
+    image = captioned(image, composition.labels, view, ratio=ratio, paper=theme.paper)
     file = io.BytesIO()
     image.save(file, "PNG", optimize=True)
     return file.getvalue()
