@@ -254,6 +254,12 @@ def _led(shown: list[Shown], text: str) -> None:
             if figure.follow not in known:
                 raise unknown(figure.follow, known, what="figure")
             figure.leader = known[figure.follow]
+    for figure in shown:
+        leader, steps = figure.leader, 0
+        while leader is not None and steps < len(shown):
+            leader, steps = leader.leader, steps + 1
+        if leader is not None:
+            raise hint(ShapeError(f"the figure {figure.name!r} follows itself"), "one of them has to lead")
 
 
 def _served(

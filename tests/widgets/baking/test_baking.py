@@ -454,3 +454,12 @@ def test_the_report_tells_the_author_what_readers_cannot_reach(tmp_path: Path) -
     )
     assert all(note in str(report) for note in report.notes)
     assert bake(ball(), tmp_path / "ball.html").notes == ()
+
+
+@pytest.mark.parametrize(("one", "two"), [("one", None), ("two", "one")])
+def test_a_figure_does_not_follow_itself(one: str, two: str | None, tmp_path: Path) -> None:
+    """Neither straight on nor by way of others."""
+    page = r4.Page("", one=r4.Figure(ball(), follow=one), two=r4.Figure(ball(), follow=two))
+    with pytest.raises(ShapeError, match="the figure 'one' follows itself"):
+        page.bake(tmp_path / "page.html")
+    assert list(tmp_path.glob("*.html")) == []

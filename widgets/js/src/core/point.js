@@ -10,6 +10,8 @@ import { canonical } from "./segments.js";
  * @typedef {import("./types.js").Eye} Eye
  */
 
+const FAR = 1e12; // metres: from further off nothing is to be seen
+
 /**
  * @param {Point} point @param {Manifest} manifest
  * @param {string} [prefix] the figure's name, where a page has several: `pendulum.t=1.2`
@@ -61,7 +63,7 @@ export function decode(text, manifest, prefix = manifest.name) {
   const time = numberOf(given.get("t"));
   if (time !== undefined) point.time = Math.min(Math.max(time, manifest.times.start), manifest.times.stop);
   const camera = (given.get("cam") ?? "").split(",").map(numberOf);
-  if (camera.length === 6 && camera.every((x) => x !== undefined)) {
+  if (camera.length === 6 && isLook(camera)) {
     point.camera = { position: camera.slice(0, 3), target: camera.slice(3) };
   }
   /** @type {Record<string, Value>} */
@@ -110,4 +112,11 @@ function unescaped(text) {
   } catch {
     return text; // a stray percent sign is what it is
   }
+}
+
+/** Whether one can look from the first three of these to the others. @param {(number|undefined)[]} six
+ * @returns {six is number[]} */
+function isLook(six) {
+  const [px, py, pz, tx, ty, tz] = six.map((x) => x ?? NaN);
+  return Math.hypot(px - tx, py - ty, pz - tz) > 0 && Math.hypot(px, py, pz, tx, ty, tz) < FAR;
 }

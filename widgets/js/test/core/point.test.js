@@ -91,6 +91,9 @@ test("a link is never believed", () => {
     "other.t=3&nobody=%E0%A4%A&place=1,2,3";
   const point = decode(text, manifest);
   assert.deepEqual([point.time, { ...point.parameters }, point.camera], [10, { length: 3 }, undefined]);
+  for (const cam of ["1,2,3,1,2,3", "1e300,0,0,0,0,0", "0,0,0,0,0,NaN"]) {
+    assert.equal(decode(`cam=${cam}`, manifest).camera, undefined);
+  }
   assert.deepEqual(decode("other.t=3&twin.length=2", manifest), decode("", manifest));
   assert.equal(/** @type {any} */ ({}).t, undefined);
 });
