@@ -17,6 +17,7 @@ Device: TypeAlias = Callable[..., Any]
 
 _devices: dict[str, Device | str] = {
     "bake": "reactive4d_widgets.baking:bake",  # one page that needs no server
+    "display": "reactive4d_widgets.cells:display",  # the last line of a cell of a notebook
     "render": "reactive4d_widgets.stills:render",  # a still picture
     "serve": "reactive4d_apps.serving:serve",  # a page for many readers
     "show": "reactive4d_widgets.showing:show",  # a window, or a cell of a notebook
@@ -27,7 +28,7 @@ def names() -> tuple[str, ...]:
     """The names of all devices.
 
     >>> names()
-    ('bake', 'render', 'serve', 'show')
+    ('bake', 'display', 'render', 'serve', 'show')
     """
     return tuple(sorted(_devices))
 

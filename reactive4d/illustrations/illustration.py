@@ -213,6 +213,11 @@ class Illustration(param.Parameterized):
 
     # -- devices ---------------------------------------------------------------------------------------------------
 
+    def _ipython_display_(self) -> None:
+        """As the last line of a cell it is shown; where there is no notebook, it is told as anything else."""
+        if not device("display")(self):
+            raise NotImplementedError
+
     def show(self, **options: Any) -> Any:
         """Put it before a reader: in a window, or in a cell of a notebook."""
         return device("show")(self, **options)

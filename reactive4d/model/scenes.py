@@ -245,6 +245,11 @@ class Scene(MutableMapping[str, Object]):
         """What readers can take hold of, in the order in which it was said."""
         return self._handles
 
+    def _ipython_display_(self) -> None:
+        """As the last line of a cell it is shown; where there is no notebook, it is told as anything else."""
+        if not device("display")(self):
+            raise NotImplementedError
+
     def show(self, **options: Any) -> Any:
         """Put it before a reader: in a window, or in a cell of a notebook."""
         return device("show")(self, **options)

@@ -5,11 +5,13 @@ import sys
 import tempfile
 import webbrowser
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from reactive4d.illustrations import subject
 from reactive4d_widgets.baking import bake
+from reactive4d_widgets.cells import in_notebook
 from reactive4d_widgets.figures import OPTIONS
 
 __all__ = ["Shown", "show"]
@@ -34,8 +36,8 @@ def show(
     browser: Callable[[str], bool] | None = None,
     progress: bool = False,
     **options: Any,
-) -> Shown:
-    """Bake a page and open it in the browser.
+) -> Any:
+    """Put it before whoever runs the program: in a notebook as a widget, else as a page in the browser.
 
     Args:
         thing: a scene, an illustration or its class, or a page.
@@ -45,7 +47,7 @@ def show(
         **options: how the figure is shown at first (theme, height, loop, grid …), and what `bake` takes.
 
     Returns:
-        Where the page is.
+        Where the page is; in a notebook the widget.
 
     Raises:
         Exception: whatever `bake` raises.
@@ -56,6 +58,10 @@ def show(
     >>> shown.path.name, seen[0].startswith("file:///")
     ('scene.html', True)
     """
+    if path is None and browser is None and not hasattr(thing, "figures") and in_notebook() and find_spec("anywidget"):
+        from reactive4d_widgets.jupyter import show as show_in_cell
+
+        return show_in_cell(thing, **options)
     name = getattr(thing, "name", "") if hasattr(thing, "figures") else subject(thing).name
     target = Path(tempfile.mkdtemp(prefix="reactive4d-")) / f"{name or 'page'}.html" if path is None else Path(path)
     figure = {key: options.pop(key) for key in OPTIONS if key in options}

@@ -1,0 +1,84 @@
+"""Loaders: the few lines that every widget of a notebook carries; the viewer itself is fetched once per page."""
+
+import base64
+from functools import lru_cache
+
+from reactive4d_widgets.bundles import packed
+
+__all__ = ["LOADER", "bundle"]
+
+# The viewer is asked of the kernel, by its hash, once for all widgets of a page: cells that run again bring none along.
+LOADER = """
+const KEY = Symbol.for("reactive4d.viewers");
+const viewers = (globalThis[KEY] ??= new Map());
+
+function fetched(model, hash) {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(() => done(new Error("the kernel does not answer")), 120000);
+    const done = (error, bytes) => {
+      clearTimeout(timer);
+      model.off("msg:custom", heard);
+      if (error) reject(error); else resolve(bytes);
+    };
+    const heard = (message, buffers) => {
+      if (message?.type !== "bundle" || message.hash !== hash) return;
+      const part = buffers?.[0];
+      if (part) done(null, part);
+      else done(null, Uint8Array.from(atob(message.data), (letter) => letter.charCodeAt(0)));
+    };
+    model.on("msg:custom", heard);
+    model.send({ type: "bundle", hash });
+  });
+}
+
+async function load(model, hash) {
+  const bytes = await fetched(model, hash);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
+  const address = URL.createObjectURL(code);
+  try {
+    return await import(address);
+  } finally {
+    URL.revokeObjectURL(address);
+  }
+}
+
+function viewer(model) {
+  const hash = model.get("_viewer");
+  if (!viewers.has(hash)) {
+    viewers.set(hash, load(model, hash).catch((error) => { viewers.delete(hash); throw error; }));
+  }
+  return viewers.get(hash);
+}
+
+async function render({ model, el }) {
+  let end = () => undefined;
+  let isOver = false;
+  viewer(model).then(({ widget }) => {
+    if (!isOver) end = widget({ model, el });
+  }).catch((error) => {
+    const note = document.createElement("p");
+    note.textContent = `This picture stays still (${error.message}).`;
+    el.append(note);
+  });
+  return () => { isOver = true; end(); };
+}
+
+export default { render };
+"""
+
+
+@lru_cache(maxsize=1)
+def bundle() -> tuple[bytes, str]:
+    """The viewer, gzipped, and the SHA-256 of what it was.
+
+    Raises:
+        Reactive4dError: it was not built.
+
+    >>> import gzip
+    >>> data, digest = bundle()
+    >>> len(gzip.decompress(data)) > 100_000, len(digest)
+    (True, 64)
+    """
+    text, digest = packed()
+    return base64.b64decode(text), digest
