@@ -50,7 +50,7 @@ export class Life {
     this.reader = new Reader(this.manifest, session, clock);
     this.announcer = new Announcer((text) => setText(spoken, text));
     this.picture = new Picture({
-      toggle: () => this.reader.toggle(this.player.main),
+      toggle: () => this.reader.turn(this.player.main),
       step: (direction) => this.player.step(direction),
       pick: (x, y) => this.view?.pick(x, y) ?? null,
       select: (hit) => this.select(hit),

@@ -30,7 +30,7 @@ export class Player {
     this.fine = niceBelow((stop - start) / 400);
     this.main = reader.manifest.options.playing || "time";
 
-    this.play = button("Play", icon("play"), () => reader.toggle(this.main), { class: "icon-button play" });
+    this.play = button("Play", icon("play"), () => reader.turn(this.main), { class: "icon-button play" });
     const previous = button("Previous mark", icon("previous"), () => this.step(-1), { class: "icon-button" });
     const next = button("Next mark", icon("next"), () => this.step(1), { class: "icon-button" });
     previous.hidden = next.hidden = reader.manifest.times.marks.length === 0;

@@ -224,6 +224,13 @@ export class Reader extends Emitter {
     else this.play(name);
   }
 
+  /** Pause whatever plays; if nothing does, play an axis. @param {string} [name] */
+  turn(name = "time") {
+    if (!this.isPlaying()) this.toggle(name);
+    else if (this.#leader) this.#leader.turn(name);
+    else this.pause();
+  }
+
   /** @param {string} [name] */
   play(name = "time") {
     if (this.clock.playing !== name) this.#arm(name);

@@ -66,6 +66,15 @@ test("a parameter plays as time does, and time stands still", () => {
   assert.equal(reader.isPlaying(), false);
 });
 
+test("what says pause pauses, whatever it is that plays", () => {
+  const { reader } = reading();
+  reader.toggle("length");
+  reader.turn("time");
+  assert.equal(reader.isPlaying(), false);
+  reader.turn("time");
+  assert.equal(reader.isPlaying("time"), true);
+});
+
 test("a baked parameter that plays goes from stop to stop", () => {
   const { reader, display, session } = reading([parameter("length", { grade: "stops", stops: [0, 1, 2], default: 0 })]);
   reader.toggle("length");
