@@ -28,7 +28,7 @@ def packed(message: dict[str, Any], buffers: list[bytes] | None = None) -> str |
     >>> packed({"type": "reopen"})
     '{"type":"reopen"}'
     >>> packed({"data": {"buffer": 0}}, [b"ab"])
-    b'$\x00\x00\x00{"data":{"buffer":0},"buffers":[2]}ab'
+    b'#\x00\x00\x00{"data":{"buffer":0},"buffers":[2]}ab'
     """
     if not buffers:
         return _text(message)
