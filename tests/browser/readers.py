@@ -11,6 +11,7 @@ from PIL import Image
 from reactive4d_apps.browsers import NEAR
 
 SIZE = (1280, 900)
+PATIENCE = 120_000  # ms; on a busy machine everything happens, but later
 
 
 class Reader:
@@ -60,6 +61,7 @@ class Reader:
             offline=True,
             permissions=["clipboard-read", "clipboard-write"],
         )
+        self.context.set_default_timeout(PATIENCE)
         self.context.route("**/*", self._routed)
         self.page: Any = self.context.new_page()
         self.page.on("console", self._said)
