@@ -38,12 +38,15 @@ export function widget({ model, el }) {
   };
   const { isSame, take } = synced(model, figure);
   const given = () => { if (figure.reader && !isSame()) take(); };
-  const poster = () => posterOf(el, model.get("_poster"));
+  const poster = (/** @type {boolean} */ isShown) => {
+    const image = posterOf(el, model.get("_poster"));
+    image?.style.setProperty("display", isShown ? "" : "none"); // a notebook's own styles know nothing of `hidden`
+  };
   figure.addEventListener("r4d-live", () => {
     if (!isSame()) take();
     figure.reader?.on("point", () => give(model, figure));
   });
-  figure.addEventListener("r4d-commit", () => { const image = poster(); if (image) image.hidden = true; });
+  figure.addEventListener("r4d-commit", () => poster(false));
   model.on("change:time", given);
   model.on("change:params", given);
   figure.transport = connect();
@@ -53,8 +56,7 @@ export function widget({ model, el }) {
     const transport = figure.transport;
     figure.remove();
     transport?.close();
-    const image = poster();
-    if (image) image.hidden = false;
+    poster(true);
   };
 }
 
