@@ -94,7 +94,11 @@ def swept(words: argparse.Namespace, *, width: int) -> Iterator[str]:
 
 def _told(result: Any, out: Path | None, width: int) -> Iterator[str]:
     told = result.attrs
-    yield f"{told['title']}: {told['points']:,} points in {told['seconds']:.3g} s, {told['hits']:.0%} from memory"
+    if told["visited"]:
+        done = f"{told['visited']:,} points in {told['seconds']:.3g} s, {told['hits']:.0%} from memory"
+    else:
+        done = f"all {told['points']:,} points were there already"
+    yield f"{told['title']}: {done}"
     if told["failed"]:
         yield from paragraph(told["summary"], width)
     yield from str(result).splitlines() if out is None else [str(out)]

@@ -18,6 +18,8 @@ from reactive4d.sweeping.workers import PIECE, failed_part
 
 __all__ = ["cluster", "threads_of"]
 
+PATIENCE = 30.0  # seconds in which the first worker must come
+
 
 def threads_of(client: Any) -> int:
     """How many tasks the workers of a client run at once.
@@ -26,13 +28,19 @@ def threads_of(client: Any) -> int:
         TypeError: it is no client.
         Reactive4dError: it has no workers.
     """
-    if not all(hasattr(client, name) for name in ("submit", "scheduler_info", "nthreads")):
+    if not all(hasattr(client, name) for name in ("submit", "nthreads", "wait_for_workers")):
         error = TypeError(f"client: expected a dask.distributed.Client, got {client!r}")
         raise hint(error, "workers=4 uses processes of this machine, without Dask")
-    threads = sum(client.nthreads().values())
-    if not threads:
-        raise hint(Reactive4dError("the client has no workers"), "client.wait_for_workers(1)")
-    return threads
+    if not client.nthreads():
+        wish = client.submit(int, pure=False)  # a cluster that adapts begins workers when there is work
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            error = Reactive4dError(f"the client has no workers, and got none in {PATIENCE:g} s")
+            raise hint(error, "cluster.scale(4), or workers=4 for processes of this machine without Dask") from None
+        finally:
+            wish.cancel()
+    return max(1, sum(client.nthreads().values()))
 
 
 def cluster(client: Any, parcel: bytes, plan: Plan, gaps: Sequence[Span]) -> Generator[Part]:

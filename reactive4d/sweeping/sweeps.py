@@ -206,6 +206,7 @@ def _attrs(about: Subject, plan: Plan, grid: Grid, report: Reporter, begun: floa
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "order": ", ".join([grid.dimensions[d].name for d in plan.order]),
         "points": grid.size,
+        "visited": report.done - report.before,
         "seconds": round(perf_counter() - begun, 3),
         "cpu_seconds": round(report.cpu, 3),
         "hits": round(report.report().hits, 4),

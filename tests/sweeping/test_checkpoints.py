@@ -109,6 +109,7 @@ def test_a_finished_sweep_asks_for_nothing(tmp_path: Path, counted: Counted, cal
     again = r4.sweep(r4.Scene(), **options, progress=told.append)
     assert not calls
     assert (told[-1].done, told[-1].total) == (60, 60)
+    assert (first.attrs["visited"], again.attrs["visited"]) == (60, 0)
     xarray.testing.assert_equal(first, again)
 
 

@@ -12,7 +12,7 @@ import pytest
 
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
-from reactive4d.sweeping import SweepWarning
+from reactive4d.sweeping import SweepWarning, clusters
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def client() -> Iterator[Any]:
     settings = {"distributed.scheduler.allowed-failures": 1, "distributed.admin.log-format": "%(message)s"}
     with (
         dask.config.set(settings),
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as cluster,
         Client(cluster) as client,
     ):
         yield client
@@ -101,14 +101,14 @@ def test_an_error_stops_what_is_under_way(client: Any, tmp_path: Path) -> None:
         )
 
 
-def test_a_client_without_workers_is_refused() -> None:
+def test_a_client_without_workers_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Instead of waiting for ever."""
+    from distributed import Client, LocalCluster
 
-    class Lonely:
-        def submit(self) -> None: ...
-        def scheduler_info(self) -> None: ...
-        def nthreads(self) -> dict[str, int]:
-            return {}
-
-    with pytest.raises(Reactive4dError, match="no workers"):
-        r4.sweep(lambda: model(""), over={"x": [1.0]}, measure={"product": "product"}, client=Lonely(), progress=False)
+    monkeypatch.setattr(clusters, "PATIENCE", 0.2)
+    with (
+        LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=50) as cluster,
+        Client(cluster) as lonely,
+        pytest.raises(Reactive4dError, match=r"no workers, and got none in 0.2 s"),
+    ):
+        r4.sweep(lambda: model(""), over={"x": [1.0]}, measure={"product": "product"}, client=lonely, progress=False)
