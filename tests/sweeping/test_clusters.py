@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,9 +19,11 @@ from reactive4d.sweeping import SweepWarning, clusters
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
     """Two workers, each a process."""
+    import cloudpickle
     import dask
     from distributed import Client, LocalCluster
 
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])  # the workers need not find the tests
     settings = {"distributed.scheduler.allowed-failures": 1, "distributed.admin.log-format": "%(message)s"}
     with (
         dask.config.set(settings),
