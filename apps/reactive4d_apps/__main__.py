@@ -64,8 +64,8 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
         place = words.output or Path(tempfile.mkdtemp(prefix="reactive4d-")) / "demo.html"
         yield from demonstrated(place, check=words.check, width=width)
     elif words.command == "bake":
-        place = words.output or Path(words.script).with_suffix(".html").name
         scene = r4.Scene.load(words.script)
+        place = words.output or Path(words.script).with_suffix(".html").name
         yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
     elif words.command == "serve":
         browser = webbrowser.open if words.open else None
