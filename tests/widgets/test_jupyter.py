@@ -1,0 +1,107 @@
+"""The widget of a figure, without a notebook round it: what its views say, on whatever thread, and what it keeps."""
+
+import gc
+import threading
+import weakref
+from typing import Any
+
+import param
+import pytest
+
+import reactive4d as r4
+
+pytest.importorskip("anywidget")
+
+from reactive4d_widgets.jupyter import FigureWidget
+from reactive4d_widgets.loaders import LOADER, bundle
+
+
+class Pole(r4.Illustration):
+    """A pole of some height."""
+
+    height = param.Number(1.0, bounds=(0, 3))
+    color = param.Color("#ff0000")
+
+    def build(self) -> r4.Scene:
+        """The pole."""
+        return r4.Scene(pole=r4.Cylinder(0.1, self.signals.height, color=self.signals.color))
+
+
+def wired(thing: Any) -> tuple[Any, list[tuple[Any, list[bytes]]]]:
+    """A widget, and what it says."""
+    said: list[tuple[Any, list[bytes]]] = []
+    widget: Any = FigureWidget(thing)
+    widget.send = lambda message, buffers=None: said.append((message, buffers or []))
+    return widget, said
+
+
+ASK = {"type": "ask", "seq": 1, "revision": 1, "parameters": {}, "times": [0], "channels": ["pole#points"]}
+
+
+def test_parameters_go_both_ways_and_stay_in_their_bounds() -> None:
+    """What is set on one side is so on the other; what cannot be is the nearest that can."""
+    fig = Pole()
+    widget, _ = wired(fig)
+    widget.params = {"height": 2.0}
+    assert fig.height == 2.0
+    widget.params = {"height": 99, "nobody": 1}
+    assert (fig.height, widget.params) == (3, {"height": 3, "color": "#ff0000"})
+    fig.color = "#00ff00"
+    assert widget.params["color"] == "#00ff00"
+
+
+def test_views_ask_for_themselves_and_the_viewer_is_sent_to_who_asks() -> None:
+    """Each view is a reader; bytes go beside the messages."""
+    widget, said = wired(Pole())
+    for name in ("a", "b"):
+        widget._heard(widget, {**ASK, "id": 1, "view": name}, [])
+    assert [(message["view"], message["type"], len(buffers)) for message, buffers in said] == [
+        ("a", "answer", 1),
+        ("b", "answer", 1),
+    ]
+    widget._heard(widget, {"type": "bundle", "hash": "x"}, [])
+    assert said[-1] == ({"type": "bundle", "hash": bundle()[1]}, [bundle()[0]])
+    for bad in (None, [], {}, {"view": 7}, {"view": "x" * 1000, "type": "open"}):
+        widget._heard(widget, bad, [])
+    assert len(said) == 3
+    assert len(LOADER) <= 3000
+
+
+def test_what_was_shown_and_is_no_more_keeps_no_model() -> None:
+    """A cell that is run again leaves a widget that is small."""
+    fig = type("Pole", (Pole,), {})()
+    widget, _ = wired(fig)
+    widget._heard(widget, {**ASK, "id": 1, "view": "a"}, [])
+    gone = weakref.ref(fig)
+    del fig
+    gc.collect()
+    assert gone() is not None
+    widget._heard(widget, {"type": "close", "view": "a"}, [])
+    gc.collect()
+    assert (gone(), widget.views) == (None, 0)
+
+
+def test_callbacks_on_several_threads_are_all_answered() -> None:
+    """While parameters are set on others."""
+    fig = Pole()
+    widget, said = wired(fig)
+
+    def ask(name: str) -> None:
+        for k in range(20):
+            wires = {"height": 0.5 + 0.1 * (k % 5), "color": "#ff0000"}
+            widget._heard(widget, {**ASK, "parameters": wires, "id": k, "view": name}, [])
+
+    def drive() -> None:
+        for k in range(20):
+            widget.params = {"height": 1.0 + 0.05 * k}
+
+    threads = [threading.Thread(target=ask, args=(name,)) for name in "abcd"] + [threading.Thread(target=drive)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert not any(thread.is_alive() for thread in threads)
+    assert sorted((m["view"], m["id"]) for m, _ in said if m["type"] == "answer") == sorted(
+        (name, k) for name in "abcd" for k in range(20)
+    )
+    assert fig.height == pytest.approx(1.95)
