@@ -53,17 +53,28 @@ class Checkpoint:
         plan: how they are visited.
         measures: the names of the measures.
         folder: where files go.
+        expected: what the measures answer at the first point, as far as that is known.
 
     Raises:
         Reactive4dError: the store holds another sweep.
     """
 
-    def __init__(self, path: Path, grid: Grid, plan: Plan, *, measures: Sequence[str], folder: Folder) -> None:
+    def __init__(
+        self,
+        path: Path,
+        grid: Grid,
+        plan: Plan,
+        *,
+        measures: Sequence[str],
+        folder: Folder,
+        expected: Mapping[str, Kind] | None = None,
+    ) -> None:
         self.path = path
         self.grid = grid
         self.plan = plan
         self.folder = folder
         self.measures = list(measures)
+        self.expected = dict(expected or {})
         self.kinds: dict[str, Kind] = {}
         self.partial: set[str] = set()  # measures of which answers are missing
         self.errors = Errors(grid.shape)
@@ -177,7 +188,9 @@ class Checkpoint:
         block = self._block(part.start)
         where = region(part.ranges, [lo for lo, _ in block.ranges])
         for name, given in list(part.answers.items()):
-            encoded, kind = agreed(name, self.folder.put(name, given), self.kinds.get(name), is_firm=True)
+            known = self.kinds.get(name)
+            filed = self.folder.put(name, given)
+            encoded, kind = agreed(name, filed, known or self.expected.get(name), is_firm=known is not None)
             part.answers[name] = encoded
             if encoded.kind is not None and kind is not None:
                 self._learn(name, kind)
@@ -273,6 +286,8 @@ def noted(path: Path) -> dict[str, Any] | None:
         found: Any = dict(group.attrs).get(NOTES)
     except Exception as error:
         raise hint(Reactive4dError(f"{path} is no Zarr store: {error}"), "give the checkpoint another name") from error
+    if not dict(group.attrs) and not list(group.members()):
+        return None  # it was killed at once
     if found is None or found.get("format") != FORMAT:
         raise hint(Reactive4dError(f"{path} holds no sweep of this kind"), "give the checkpoint another name")
     if "status" not in group:

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 
 from reactive4d.arrays import freeze
-from reactive4d.engine import Cell
+from reactive4d.engine import Cell, engine
+from reactive4d.engine.frames import LOCK, here
 from reactive4d.engine.kinds import AXIS, SOURCE
 from reactive4d.engine.segments import MappedReads
+from reactive4d.engine.walks import wait_for_transaction
 from reactive4d.signals.algebra import Operation
 from reactive4d.signals.kernels import Constant, repeated, stacked
 from reactive4d.sweeping.asking import ApartError, TooLongError, ask
@@ -24,6 +26,7 @@ from reactive4d.sweeping.memories import Memory
 __all__ = ["Evaluator"]
 
 NOTHING: Reads = frozenset()
+RESTARTS = 3  # where somebody edits the model meanwhile; then what was found is taken as it is
 
 
 class _Mark:
@@ -53,8 +56,19 @@ class Evaluator:
         Raises:
             TooLongError: the deadline, a time of `perf_counter`, has passed.
         """
-        walk = _Walk(self, context, deadline)
         wanted = tuple(dict.fromkeys(roots))
+        found: dict[Cell, Column] = {}
+        for _ in range(RESTARTS):
+            with LOCK:
+                if engine.closed_to(here.me):
+                    wait_for_transaction(engine, here.me)
+                epoch = engine.epoch
+            found = self._evaluated(wanted, _Walk(self, context, deadline))
+            if engine.epoch == epoch:
+                break  # nobody has edited the model meanwhile
+        return found
+
+    def _evaluated(self, wanted: Sequence[Cell], walk: "_Walk") -> dict[Cell, Column]:
         try:
             found = walk.columns(wanted)
         except RecursionError:

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d.arrays import ARRAY, SCALAR
+from reactive4d.engine import Cell
 from reactive4d.errors import ParameterError, ShapeError, TimeError, hint, unknown
 from reactive4d.signals.kernels import MAPPING, SEQUENCE
 from reactive4d.sweeping.designs import Design
@@ -251,8 +251,9 @@ def _times(given: Any) -> tuple[NDArray[np.float64], bool]:
 
 def _listed(lever: Lever, given: Any) -> tuple[bool, Any]:
     """Whether one value was given, and it; else the values."""
-    plain: Any = given.tolist() if isinstance(given, ARRAY | SCALAR) else given
-    if isinstance(plain, MAPPING | str | bytes) or not hasattr(plain, "__iter__"):
+    has_array = hasattr(given, "__array__") and not isinstance(given, Cell)
+    plain: Any = np.asarray(given).tolist() if has_array else given
+    if isinstance(plain, MAPPING | Cell | str | bytes) or not hasattr(plain, "__iter__"):
         return True, plain
     values: list[Any] = list(plain)
     parts: Any = lever.default

@@ -45,9 +45,8 @@ class Subject:
 
     def knowing(self, signals: Iterable[Cell]) -> "Subject":
         """The same, with the parameters known that some signals are seen to read."""
-        if self.is_closed:
-            return self
-        return replace(self, levers={axis.name: lever_of(axis) for axis in below(signals) if isinstance(axis, Axis)})
+        seen = {axis.name: lever_of(axis) for axis in below(signals) if isinstance(axis, Axis)}
+        return replace(self, levers={**seen, **self.levers})
 
     def recipe(self) -> "Recipe":
         """How another process makes the same.

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.errors import ParameterError, Reactive4dError, hint
+from reactive4d.engine.frames import here
+from reactive4d.errors import EvaluationError, ParameterError, Reactive4dError, hint
 from reactive4d.sweeping.datasets import coordinates, dataset, summary
 from reactive4d.sweeping.grids import Grid, grid_of
 from reactive4d.sweeping.jobs import Counter, Job, Part, Visitor
@@ -78,6 +79,7 @@ def sweep(
         ParameterError: a value that a parameter does not take.
         TypeError: something is not what it should be: a measure that is no signal.
         Reactive4dError: the checkpoint holds another sweep; the model cannot travel to other processes.
+        EvaluationError: inside of an evaluation.
         Exception: with errors="raise", the first error at a point, which is named in its notes.
 
     >>> import reactive4d as r4
@@ -87,6 +89,9 @@ def sweep(
     >>> (found["size"] / found["size"][0]).round(3).values.tolist(), found["radius"].attrs["units"]
     ([1.0, 8.0, 27.0], 'm')
     """
+    if here.me.frame is not None:
+        error = EvaluationError(f"sweep(…) inside of the evaluation of {here.me.frame.cell.name}")
+        raise hint(error, "sweep outside, and set a Variable to what is found")
     _check_options(errors, workers, client)
     about = subject_of(subject)
     check_measures(measure)
@@ -111,7 +116,7 @@ def sweep(
     else:
         from reactive4d.sweeping.checkpoints import Checkpoint
 
-        store = Checkpoint(path, grid, plan, measures=list(measure), folder=folder)
+        store = Checkpoint(path, grid, plan, measures=list(measure), folder=folder, expected=kinds)
         done, failed = store.counts()
     gaps = store.gaps()
     with reporter(progress, about.name) as listener:

@@ -298,3 +298,23 @@ def test_no_more_than_a_block_or_two_is_in_memory(tmp_path: Path, monkeypatch: p
     r4.sweep(r4.Scene(), over=OVER, measure={"m": p * r4.time}, checkpoint=tmp_path / "s.zarr", progress=False)
     assert len(sizes) > 4
     assert max(sizes) <= 1
+
+
+def test_a_store_that_was_only_just_made_is_begun(tmp_path: Path) -> None:
+    """Killed before anything stood in it."""
+    import zarr
+
+    zarr.open_group(str(tmp_path / "s.zarr"), mode="w", zarr_format=3)
+    found = r4.sweep(
+        r4.Scene(), over={"check_p": [1.0]}, measure={"m": p}, checkpoint=tmp_path / "s.zarr", progress=False
+    )
+    assert found["m"].values.tolist() == [1.0]
+
+
+def test_single_precision_is_stored_as_the_first_point_answers(tmp_path: Path, blocks: str) -> None:
+    """A point by itself answers a number, many together an array: they fit together."""
+    narrow = r4.lift(lambda x: np.float32([x, 1]))(p)[0] * q
+    options: dict[str, Any] = {"over": OVER, "measure": {"m": narrow}, "progress": False}
+    found = r4.sweep(r4.Scene(), checkpoint=tmp_path / "s.zarr", **options)
+    assert found["m"].dtype == np.float64
+    assert np.allclose(found["m"][..., 0], np.outer(OVER["check_p"], OVER["check_q"]))

@@ -1,6 +1,7 @@
 """The number of evaluations is the least possible: each part runs once for every combination of what it reads."""
 
 import itertools
+import threading
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -189,3 +190,27 @@ def visit(
             t, given = grid.point(index)
             assert found[name][index] == pytest.approx(signal.at(t, **given), rel=1e-12)
     return visitor
+
+
+def test_another_thread_may_edit_meanwhile() -> None:
+    """Each tile is of one state of the model: a sum of two variables that are edited together stays what it is."""
+    x, y = r4.Variable(0.0), r4.Variable(10.0)
+    measure = (x + 0 * r4.time) + (y + 0 * r4.time)
+    stop = threading.Event()
+
+    def edit() -> None:
+        k = 0
+        while not stop.is_set():
+            k += 1
+            with r4.transaction():
+                x.value, y.value = float(k), 10.0 - k
+
+    thread = threading.Thread(target=edit)
+    thread.start()
+    try:
+        for _ in range(20):
+            found = r4.sweep(r4.Scene(), over={"time": T}, measure={"m": measure}, progress=False)
+            assert found["m"].values.tolist() == [10.0] * 7
+    finally:
+        stop.set()
+        thread.join()

@@ -234,3 +234,31 @@ def test_a_dataset_can_be_written_and_read_again(tmp_path: Path) -> None:
     found.to_zarr(tmp_path / "out.zarr", consolidated=False)
     with xarray.open_zarr(tmp_path / "out.zarr", consolidated=False) as again:
         assert np.array_equal(again["p"], found["p"])
+
+
+def test_values_may_come_from_any_array() -> None:
+    """From a dataset, from pandas, from a generator."""
+    first = one(a, over={"data_a": [1.0, 2.0]})
+    for values in (first["data_a"], first["data_a"].to_index(), (x for x in (1.0, 2.0)), {1.0: "a", 2.0: "b"}.keys()):
+        assert one(a, over={"data_a": values}).values.tolist() == [1.0, 2.0]
+    assert one(a, over={"data_a": first["data_a"][1]}).item() == 2.0
+    with pytest.raises(r4.ParameterError, match="expected a number"):
+        one(a, over={"data_a": a})
+
+
+def test_an_illustration_may_read_parameters_besides_its_own() -> None:
+    """They are found below the measures."""
+
+    class Odd(r4.Illustration):
+        """Reads a parameter that is not declared in it."""
+
+        b = param.Number(1.0)
+
+        def build(self) -> r4.Scene:
+            scene = r4.Scene()
+            scene.signals["m"] = self.signals.b * a
+            return scene
+
+    found = r4.sweep(Odd, over={"b": [1.0, 2.0], "data_a": [3.0, 4.0]}, measure={"m": "m"}, progress=False)
+    assert found["m"].values.tolist() == [[3.0, 4.0], [6.0, 8.0]]
+    assert found["data_a"].attrs["units"] == "m"

@@ -213,3 +213,14 @@ def test_an_interrupt_goes_through() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         r4.sweep(r4.Scene(), over={"fail_x": [1.0, 2.0, 3.0]}, measure={"m": r4.lift(interrupted)(x)}, progress=False)
+
+
+def test_a_sweep_inside_of_an_evaluation_is_refused() -> None:
+    """What it finds could not be known to depend on anything."""
+
+    @r4.signal
+    def nested() -> float:
+        return r4.sweep(r4.Scene(), over={"fail_x": [1.0]}, measure={"m": x}, progress=False)["m"].item()
+
+    with pytest.raises(r4.errors.EvaluationError, match="inside of the evaluation of nested"):
+        nested.at(0.0)
