@@ -12,7 +12,7 @@ import numpy as np
 
 from reactive4d.arrays import freeze
 from reactive4d.engine import Cell, engine
-from reactive4d.engine.frames import LOCK, here
+from reactive4d.engine.frames import CHANGED, LOCK, here
 from reactive4d.engine.kinds import AXIS, SOURCE
 from reactive4d.engine.segments import MappedReads
 from reactive4d.engine.walks import wait_for_transaction
@@ -26,7 +26,7 @@ from reactive4d.sweeping.memories import Memory
 __all__ = ["Evaluator"]
 
 NOTHING: Reads = frozenset()
-RESTARTS = 3  # where somebody edits the model meanwhile; then what was found is taken as it is
+RESTARTS = 3  # where somebody edits the model meanwhile
 
 
 class _Mark:
@@ -58,12 +58,18 @@ class Evaluator:
         """
         wanted = tuple(dict.fromkeys(roots))
         found: dict[Cell, Column] = {}
-        for _ in range(RESTARTS):
+        for turn in range(RESTARTS + 1):
             with LOCK:
                 if engine.closed_to(here.me):
                     wait_for_transaction(engine, here.me)
                 epoch = engine.epoch
-            found = self._evaluated(wanted, _Walk(self, context, deadline))
+                engine.patience += turn == RESTARTS  # then edits wait
+            try:
+                found = self._evaluated(wanted, _Walk(self, context, deadline))
+            finally:
+                with LOCK:
+                    engine.patience -= turn == RESTARTS
+                    CHANGED.notify_all()
             if engine.epoch == epoch:
                 break  # nobody has edited the model meanwhile
         return found

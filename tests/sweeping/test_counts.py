@@ -208,7 +208,7 @@ def test_another_thread_may_edit_meanwhile() -> None:
     thread = threading.Thread(target=edit)
     thread.start()
     try:
-        for _ in range(20):
+        for _ in range(5):
             found = r4.sweep(r4.Scene(), over={"time": T}, measure={"m": measure}, progress=False)
             assert found["m"].values.tolist() == [10.0] * 7
     finally:
