@@ -12,7 +12,7 @@ from reactive4d.engine import engine
 from .reports import Section, Target, duration, ratio
 from .runs import Run
 
-__all__ = ["sweeping"]
+__all__ = ["bored", "chain", "plainly", "sweeping"]
 
 CELLS, VALUES, TIMES = 10, 32, 501
 
@@ -41,31 +41,39 @@ def _work(rounds: int) -> Callable[..., float]:
     return work
 
 
+def chain(work: Callable[..., float]) -> Any:
+    """Ten cells, each of which reads the one before, and the last a parameter as well."""
+    lifted = r4.lift(work)
+    cell = lifted(r4.time)
+    for _ in range(CELLS - 2):
+        cell = lifted(cell)
+    return lifted(cell, r4.Parameter("bench_gain", 1.0))
+
+
+def plainly(work: Callable[..., float], gains: list[float], times: list[float]) -> list[list[float]]:
+    """One run of the ten, and the last one again for every other value, by plain calls."""
+    rows: list[list[float]] = []
+    for t in times:
+        x = t
+        for _ in range(CELLS - 1):
+            x = work(x)
+        rows.append([work(x, gain) for gain in gains])
+    return rows
+
+
 def _last_cell(run: Run, section: Section) -> None:
     """Ten functions of Python's one after the other, of some 70 µs each, of which the last reads the parameter."""
     values, times = (8 if run.quick else VALUES), np.linspace(0.0, 10.0, TIMES)
     work = _work(2500)
-    lifted = r4.lift(work)
+    gains = np.linspace(0.0, 1.0, values)
 
     def ours() -> float:
-        gain, cell = r4.Parameter("bench_gain", 1.0), lifted(r4.time)
-        for _ in range(CELLS - 2):
-            cell = lifted(cell)
-        over = {"bench_gain": np.linspace(0.0, 1.0, values), "time": times}
-        return _timed(lambda: r4.sweep(r4.Scene(), over=over, measure={"m": lifted(cell, gain)}, progress=False))
+        measure = chain(work)
+        over = {"bench_gain": gains, "time": times}
+        return _timed(lambda: r4.sweep(r4.Scene(), over=over, measure={"m": measure}, progress=False))
 
     def least() -> float:
-        """One run of the ten, and the last one again for every other value, by plain calls."""
-
-        def plain() -> None:
-            for t in times.tolist():
-                x = t
-                for _ in range(CELLS - 1):
-                    x = work(x)
-                for value in range(values):
-                    work(x, value)
-
-        return _timed(plain)
+        return _timed(lambda: plainly(work, gains.tolist(), times.tolist()))
 
     taken, bare = _median(3, ours, least)
     section.rows.append(
@@ -118,7 +126,7 @@ def _machinery(run: Run, section: Section) -> None:
 
 def bored(triangles: int) -> r4.Scene:
     """A ball of so many triangles with a hole of as many, which a parameter moves."""
-    rings = max(8, round((triangles / 8) ** 0.5))
+    rings = max(8, round((triangles / 4) ** 0.5))
     ball, hole = (r4.Sphere(r, segments=2 * rings, rings=rings) for r in (1.0, 0.7))
     hole.translate(r4.vec(r4.Parameter("bench_shift", 0.5), 0.1, 0.05))
     return r4.Scene(part=ball - hole)
@@ -126,7 +134,7 @@ def bored(triangles: int) -> r4.Scene:
 
 def _workers(run: Run, section: Section) -> None:
     """Independent heavy points, by one process and by two: the processor's time of each point, and the clock's."""
-    triangles, points = (4_000, 16) if run.quick else (20_000, 160)
+    triangles, points = (4_000, 16) if run.quick else (20_000, 120)
     seconds: dict[int, list[Any]] = {1: [], 2: []}
     for _ in range(1 if run.quick else 3):
         for workers, taken in seconds.items():
