@@ -5,8 +5,6 @@ blocks is written every few seconds into a journal beside the store. So whoever 
 work, and what was finished is never written over.
 """
 
-import hashlib
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -15,11 +13,11 @@ from uuid import uuid4
 
 import numpy as np
 
-from reactive4d.errors import Reactive4dError, hint
 from reactive4d.sweeping.datasets import coordinates, extra_dimensions, opened, summary
 from reactive4d.sweeping.grids import Grid
 from reactive4d.sweeping.jobs import Part
 from reactive4d.sweeping.journals import Block, read_journal, write_journal
+from reactive4d.sweeping.notes import FORMAT, NOTES, compare, digest, group_at, noted
 from reactive4d.sweeping.plans import Plan
 from reactive4d.sweeping.stores import (
     DONE,
@@ -36,10 +34,8 @@ from reactive4d.sweeping.stores import (
 )
 from reactive4d.sweeping.values import MISSING, Kind
 
-__all__ = ["Checkpoint", "noted"]
+__all__ = ["Checkpoint"]
 
-FORMAT: Final = "reactive4d.sweep/1"
-NOTES: Final = "reactive4d_sweep"  # the attribute of the store that says what it holds
 OFTEN = 2.0  # seconds after which what is not yet in the store is written beside it
 STATUS: Final = "what a point is: 0 open, 1 done, 2 left out, 3 failed"
 
@@ -82,15 +78,15 @@ class Checkpoint:
         self.written = perf_counter()
         self._names = [dimension.name for dimension in grid.dimensions]
         self._taken = [*coordinates(grid), *self.measures]
-        self._key = _digest(grid, self.measures)
+        self._key = digest(grid, self.measures)
         found = noted(path)
         # A store that was deleted and begun anew is another one: what an old journal says is not of it.
         self._name = found["name"] if found is not None else uuid4().hex
-        self.group: Any = _group(path, "a")
+        self.group: Any = group_at(path, "a")
         if found is None:
             self._begin()
         else:
-            _compare(found, self._told(), path)
+            compare(found, self._told(), path)
             self.kinds = {name: Kind.of(told) for name, told in found["kinds"].items()}
             self.partial = set(found["partial"])
         self.status = np.asarray(self.group["status"][...])
@@ -273,58 +269,5 @@ class Checkpoint:
         return opened(self.path, {name: self.kinds[name] for name in described}, partial=self.partial)
 
 
-def noted(path: Path) -> dict[str, Any] | None:
-    """What an earlier sweep noted in a store; None where there is none.
-
-    Raises:
-        Reactive4dError: there is something else.
-    """
-    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-        return None
-    try:
-        group = _group(path, "r")
-        found: Any = dict(group.attrs).get(NOTES)
-    except Exception as error:
-        raise hint(Reactive4dError(f"{path} is no Zarr store: {error}"), "give the checkpoint another name") from error
-    if not dict(group.attrs) and not list(group.members()):
-        return None  # it was killed at once
-    if found is None or found.get("format") != FORMAT:
-        raise hint(Reactive4dError(f"{path} holds no sweep of this kind"), "give the checkpoint another name")
-    if "status" not in group:
-        shutil.rmtree(path)  # it was killed before it had begun
-        return None
-    return dict(found)
-
-
-def _group(path: Path, mode: str) -> Any:
-    import zarr
-
-    open_group: Any = zarr.open_group  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
-    if mode != "r":
-        path.parent.mkdir(parents=True, exist_ok=True)
-        return open_group(str(path), mode=mode, zarr_format=3)
-    return open_group(str(path), mode=mode)
-
-
 def _has_gaps(data: Any, kind: Kind) -> bool:
     return bool((data == MISSING[kind.sort]).any())
-
-
-def _compare(found: Mapping[str, Any], told: Mapping[str, Any], path: Path) -> None:
-    """Raise if a store holds another sweep."""
-    for name in ("dimensions", "shape", "measures", "key"):
-        if found[name] != told[name]:
-            shown = "with other values" if name == "key" else f"with the {name} {found[name]!r}, not {told[name]!r}"
-            error = Reactive4dError(f"{path} holds another sweep, {shown}")
-            raise hint(error, "give the checkpoint another name, or delete it to begin anew")
-
-
-def _digest(grid: Grid, measures: Sequence[str]) -> str:
-    """What tells a sweep from others, but for the model."""
-    found = hashlib.sha256()
-    for dimension in grid.labelled().dimensions:
-        for name, column in dimension.columns.items():
-            values: list[Any] = column.tolist() if isinstance(column, np.ndarray) else list(column)
-            found.update(f"{dimension.name}|{name}|{values!r}\n".encode())
-    found.update(f"{dict(grid.labelled().fixed)!r}|{grid.time!r}|{measures!r}".encode())
-    return found.hexdigest()[:32]

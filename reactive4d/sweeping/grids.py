@@ -1,6 +1,5 @@
 """Grids: the points of a sweep. Every dimension moves one parameter, or several side by side; time is one of them."""
 
-import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.engine import Cell
-from reactive4d.errors import ParameterError, ShapeError, TimeError, hint, unknown
+from reactive4d.errors import ParameterError, TimeError, hint
 from reactive4d.signals.kernels import MAPPING, SEQUENCE
 from reactive4d.sweeping.designs import Design
+from reactive4d.sweeping.filters import Where, where_of
 from reactive4d.sweeping.levers import TIME, Lever, lookup
 
-__all__ = ["Column", "Dimension", "Grid", "Where", "grid_of"]
+__all__ = ["Column", "Dimension", "Grid", "grid_of"]
 
 
 TUPLE: Any = tuple  # for `isinstance`: by the class itself a checker would find tuples of unknown items
@@ -50,28 +50,6 @@ class Dimension:
     def is_time(self) -> bool:
         """Whether it moves time and nothing else."""
         return list(self.columns) == [TIME]
-
-
-@dataclass(frozen=True)
-class Where:
-    """Which points are visited: a function of the values of some of the parameters."""
-
-    function: Callable[..., Any]
-    names: tuple[str, ...]
-
-    def __call__(self, values: Mapping[str, Any]) -> bool:
-        """Whether a point is visited."""
-        given = {name: values[name] for name in self.names}
-        try:
-            answer = self.function(**given)
-        except Exception as error:
-            error.add_note(f"in where({', '.join([f'{name}={value!r}' for name, value in given.items()])})")
-            raise
-        try:
-            return bool(answer)
-        except (TypeError, ValueError):
-            error = ShapeError(f"where: expected True or False, got {answer!r}")
-            raise hint(error, "it is called for one point at a time") from None
 
 
 @dataclass(frozen=True)
@@ -212,8 +190,9 @@ def grid_of(
         if not len(next(iter(columns.values()))):
             raise hint(ParameterError(f"{name}: no values"), "give at least one; leave it out where it stands still")
         dimensions.append(Dimension(name, columns))
+    known = {*fixed, TIME, *[name for dimension in dimensions for name in dimension.columns]}
     _refuse_clashes(dimensions, [*fixed, *([TIME] if is_still else [])])
-    return Grid(tuple(dimensions), fixed, time, _where(where, dimensions, fixed), used)
+    return Grid(tuple(dimensions), fixed, time, where_of(where, known), used)
 
 
 def _chosen(lever: Lever | None, column: Column) -> Column:
@@ -275,28 +254,3 @@ def _refuse_clashes(dimensions: Sequence[Dimension], fixed: Iterable[str]) -> No
         if dimension.is_design and (dimension.name in seen or not dimension.name.isidentifier()):
             error = ParameterError(f"{dimension.name!r} is no name for the dimension of a design")
             raise hint(error, "one that is no parameter's: over={'sample': latin_hypercube(…)}")
-
-
-def _where(
-    function: Callable[..., Any] | None, dimensions: Sequence[Dimension], fixed: Mapping[str, Any]
-) -> Where | None:
-    if function is None:
-        return None
-    if not callable(function):
-        error = TypeError(f"where: expected a function of parameters, got {function!r}")
-        raise hint(error, "where=lambda length, angle: length * angle < 50")
-    known = {name for dimension in dimensions for name in dimension.columns} | set(fixed) | {TIME}
-    try:
-        arguments = inspect.signature(function).parameters.values()
-    except ValueError:
-        raise TypeError("where: this function does not tell its arguments; write one that calls it") from None
-    names: list[str] = []
-    for argument in arguments:
-        if argument.kind is argument.VAR_KEYWORD:
-            names = [*known]
-            break
-        if argument.name in known and argument.kind is not argument.POSITIONAL_ONLY:
-            names.append(argument.name)
-        elif argument.default is argument.empty and argument.kind is not argument.VAR_POSITIONAL:
-            raise unknown(argument.name, known, what="argument of where")
-    return Where(function, tuple(names))

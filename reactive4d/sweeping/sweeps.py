@@ -159,7 +159,7 @@ def _planned(
 ) -> tuple[Plan, Any, int]:
     """How the points are visited: as before, where a checkpoint is there already."""
     if path is not None:
-        from reactive4d.sweeping.checkpoints import noted
+        from reactive4d.sweeping.notes import noted
 
         found = noted(path)
         if found is not None and found["shape"] == list(grid.shape):
