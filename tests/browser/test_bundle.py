@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+import json
 import re
 from pathlib import Path
 
@@ -53,4 +54,5 @@ def test_tracks_play_in_a_browser_as_in_python(viewer: Reader):
     """All conformance vectors: 1e-9 for tracks, 1e-6 for matrices, exactly equal at keys."""
     known = vectors()
     assert len(known["tracks"]) > 100
-    assert viewer.ask("(vectors) => viewer.conform(vectors)", known) == []
+    # As a text: a driver's own way to pass values does not keep all of them.
+    assert viewer.ask("(text) => viewer.conform(JSON.parse(text))", json.dumps(known)) == []
