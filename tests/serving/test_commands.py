@@ -34,14 +34,19 @@ def folder(tmp_path: Path) -> Path:
     """A folder with a module and a script."""
     import reactive4d as r4
 
-    (tmp_path / "models.py").write_text(MODEL)
+    (tmp_path / "served_models.py").write_text(MODEL)
     r4.Scene(ball=r4.Sphere()).save(tmp_path / "ball.scefo")
     return tmp_path
 
 
 @pytest.mark.parametrize(
     ("place", "title"),
-    [("models:Ball", "Ball"), ("models:scene", "Scene"), ("models.py:Ball", "Ball"), ("ball.scefo", "Scene")],
+    [
+        ("served_models:Ball", "Ball"),
+        ("served_models:scene", "Scene"),
+        ("served_models.py:Ball", "Ball"),
+        ("ball.scefo", "Scene"),
+    ],
 )
 def test_a_class_a_scene_and_a_script_are_served_until_ctrl_c(folder: Path, place: str, title: str):
     """The first line is the address, which works; ctrl-C ends it with status 0, and nothing is complained about."""
@@ -71,10 +76,10 @@ def test_a_class_a_scene_and_a_script_are_served_until_ctrl_c(folder: Path, plac
 @pytest.mark.parametrize(
     ("place", "said"),
     [
-        ("models:Bal", "did you mean 'Ball'?"),
+        ("served_models:Bal", "did you mean 'Ball'?"),
         ("nowhere:Ball", "there is no module 'nowhere'"),
-        ("models:r4", "models:r4 is nothing that can be shown"),
-        ("models", "neither a script nor a class in a module"),
+        ("served_models:r4", "served_models:r4 is nothing that can be shown"),
+        ("served_models", "neither a script nor a class in a module"),
         ("nobody.py:Ball", "No such file"),
         ("nobody.scefo", "No such file"),
     ],
