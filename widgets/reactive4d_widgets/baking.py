@@ -5,7 +5,7 @@ Everything that the page can show is asked beforehand, each cell once, and writt
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +17,11 @@ from reactive4d_widgets.bundles import packed, styles
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.estimates import estimated, refuse_if_too_large, too_large
 from reactive4d_widgets.figures import Shown, checked_options
+from reactive4d_widgets.layouts import laid_out, lead
 from reactive4d_widgets.notes import notes
-from reactive4d_widgets.pages import document, heading, joined, refuse_wrong_words
+from reactive4d_widgets.pages import document, refuse_wrong_words
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.progress import Bar, bar
-from reactive4d_widgets.prose import written
 from reactive4d_widgets.tables import Problem, tabulated
 
 __all__ = ["LIMIT", "Report", "bake"]
@@ -244,41 +244,14 @@ def _listed(wire: Any) -> Any:
     return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
 
 
-def _led(shown: list[Shown], text: str) -> None:
-    """Find out who follows whom: a figure may say so itself, or where it stands in the text."""
-    known = {figure.name: figure for figure in shown}
-    follows = written(text, [replace(figure.cast(), block=str) for figure in shown]).follows
-    for figure in shown:
-        figure.follow = follows.get(figure.name, figure.follow)
-        if figure.follow is not None:
-            if figure.follow not in known:
-                raise unknown(figure.follow, known, what="figure")
-            figure.leader = known[figure.follow]
-    for figure in shown:
-        leader, steps = figure.leader, 0
-        while leader is not None and steps < len(shown):
-            leader, steps = leader.leader, steps + 1
-        if leader is not None:
-            raise hint(ShapeError(f"the figure {figure.name!r} follows itself"), "one of them has to lead")
-
-
 def _served(
     shown: list[Shown], text: str, target: Path, *, title: str | None, limit: float, lang: str, theme: str
 ) -> Report:
     """Write the file."""
-    _led(shown, text)
-    casts = [figure.cast() for figure in shown]
-    prose = written(text, casts)
-    called = title or prose.title or shown[0].title or shown[0].table.manifest["title"]
-    # A figure that the text does not place stands above it, below the title.
-    others = [cast.block("") for cast in casts if cast.name not in prose.placed]
-    if prose.title is not None and others:
-        first, _, rest = prose.html.partition("</h1>")
-        body = joined([f"{first}</h1>", *others, rest.lstrip("\n")])
-    else:
-        body = joined([heading(called) if prose.title is None else "", *others, prose.html])
+    lead(shown, text)
+    layout = laid_out(shown, text, title=title)
     data = {figure.name: figure.table.to_json() for figure in shown if figure.source == figure.name}
-    content = document(body, data, title=called, lang=lang, theme=theme).encode("utf-8")
+    content = document(layout.body, data, title=layout.title, lang=lang, theme=theme).encode("utf-8")
     sizes = {
         f"{figure.name}/{channel}": size
         for figure in shown
@@ -291,4 +264,4 @@ def _served(
     problems = tuple(problem for f in shown if f.source == f.name for problem in f.table.problems)
     asks = sum(figure.table.asks for figure in shown if figure.source == figure.name)
     largest = dict(sorted(sizes.items(), key=lambda item: -item[1]))
-    return Report(target, len(content), asks, largest, problems, notes(shown, prose.links))
+    return Report(target, len(content), asks, largest, problems, notes(shown, layout.prose.links))

@@ -11,7 +11,7 @@ from html import escape
 from reactive4d.errors import ShapeError
 from reactive4d_widgets.bundles import LOADER, loader_hash, packed, styles
 
-__all__ = ["document", "heading", "inert", "joined", "refuse_wrong_words"]
+__all__ = ["document", "framed", "heading", "inert", "joined", "refuse_wrong_words"]
 
 _POLICY = (
     "default-src 'none'; script-src {loader} blob:; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -42,7 +42,6 @@ def document(body: str, data: Mapping[str, str], *, title: str, lang: str = "en"
         Reactive4dError: the viewer was not built.
     """
     code, digest = packed()
-    forced = "" if theme == "auto" else f' data-theme="{escape(theme)}"'
     version = importlib.metadata.version("reactive4d")
     head = [
         '<meta charset="utf-8">',
@@ -61,6 +60,36 @@ def document(body: str, data: Mapping[str, str], *, title: str, lang: str = "en"
         f'<script type="text/plain" id="r4d-bundle" data-sha256="{digest}">{code}</script>',
         f"<script>{LOADER}</script>",
     ]
+    return framed(body, head=head, scripts=scripts, lang=lang, theme=theme)
+
+
+def framed(
+    body: str, *, head: Iterable[str], scripts: Iterable[str] = (), lang: str = "en", theme: str = "auto"
+) -> str:
+    """What stands round a body in any document of ours.
+
+    Args:
+        body: HTML.
+        head: lines for the document's head.
+        scripts: lines after the body's text.
+        lang: of the prose, as in HTML.
+        theme: "light", "dark", or "auto" for what the reader's system says.
+
+    >>> print(framed("<h1>A</h1>", head=["<title>A</title>"], theme="dark"))
+    <!doctype html>
+    <html lang="en" data-theme="dark">
+    <head>
+    <title>A</title>
+    </head>
+    <body>
+    <main class="r4d-page">
+    <h1>A</h1>
+    </main>
+    </body>
+    </html>
+    <BLANKLINE>
+    """
+    forced = "" if theme == "auto" else f' data-theme="{escape(theme)}"'
     lines = [
         "<!doctype html>",
         f'<html lang="{escape(lang)}"{forced}>',

@@ -1,17 +1,15 @@
 """Documents: the page that is served: prose and figures as in a baked page, but the figures ask."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from html import escape
 from typing import Any
 
-from reactive4d.errors import unknown
 from reactive4d.illustrations import Figure
 from reactive4d_widgets.bundles import STATIC, packed, styles
 from reactive4d_widgets.figures import Shown
-from reactive4d_widgets.pages import heading, joined
+from reactive4d_widgets.layouts import laid_out, lead
+from reactive4d_widgets.pages import framed
 from reactive4d_widgets.plans import Plan
-from reactive4d_widgets.prose import written
 from reactive4d_widgets.tables import Table
 
 __all__ = ["Opening", "document", "files"]
@@ -65,45 +63,17 @@ def document(
 
     Raises:
         UnknownNameError: the text names what no figure knows.
+        ShapeError: a figure follows itself.
     """
     shown = [opened().shown for opened in openings.values()]
-    known = {figure.name: figure for figure in shown}
-    follows = written(text, [replace(figure.cast(), block=_nothing) for figure in shown]).follows
-    for figure in shown:
-        figure.follow = follows.get(figure.name, figure.follow)
-        if figure.follow is not None:
-            if figure.follow not in known:
-                raise unknown(figure.follow, known, what="figure")
-            figure.leader = known[figure.follow]
-    casts = [figure.cast() for figure in shown]
-    prose = written(text, casts)
-    called = title or prose.title or shown[0].title or shown[0].table.manifest["title"]
-    others = [cast.block("") for cast in casts if cast.name not in prose.placed]
-    if prose.title is not None and others:
-        first, _, rest = prose.html.partition("</h1>")
-        body = joined([f"{first}</h1>", *others, rest.lstrip("\n")])
-    else:
-        body = joined([heading(called) if prose.title is None else "", *others, prose.html])
-    forced = "" if theme == "auto" else f' data-theme="{escape(theme)}"'
-    lines = [
-        "<!doctype html>",
-        f'<html lang="{escape(lang)}"{forced}>',
-        "<head>",
+    lead(shown, text)
+    layout = laid_out(shown, text, title=title)
+    head = [
         '<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<link rel="icon" href="data:,">',
         '<link rel="stylesheet" href="page.css">',
-        f"<title>{escape(called)}</title>",
+        f"<title>{escape(layout.title)}</title>",
         '<script type="module" src="start.mjs"></script>',
-        "</head>",
-        "<body>",
-        f'<main class="r4d-page">\n{body}\n</main>',
-        "</body>",
-        "</html>",
-        "",
     ]
-    return "\n".join(lines)
-
-
-def _nothing(caption: str) -> str:
-    return ""
+    return framed(layout.body, head=head, lang=lang, theme=theme)
