@@ -7,11 +7,12 @@ scene does not notice.
 
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any, TypeAlias
 
 from reactive4d.errors import Reactive4dError, hint, unknown
 
-__all__ = ["Device", "device", "exchange", "names"]
+__all__ = ["Device", "Showable", "device", "exchange", "names"]
 
 Device: TypeAlias = Callable[..., Any]
 
@@ -87,3 +88,52 @@ def exchange(name: str, other: Device | str) -> Device | str:
     before = _devices.get(name, other)
     _devices[name] = other
     return before
+
+
+class Showable:
+    """Whatever can be put before a reader: each way is a device.
+
+    >>> import reactive4d as r4
+    >>> issubclass(r4.Scene, Showable) and issubclass(r4.Illustration, Showable)
+    True
+    """
+
+    __slots__ = ()
+
+    def _ipython_display_(self) -> None:
+        """As the last line of a cell it is shown; where there is no notebook, it is told as anything else."""
+        if not device("display")(self):
+            raise NotImplementedError
+
+    def show(self, **options: Any) -> Any:
+        """Put it before a reader: in a window, or in a cell of a notebook."""
+        return device("show")(self, **options)
+
+    def bake(self, path: str | Path, **options: Any) -> Any:
+        """Write one page that needs no server: figure, player, controls.
+
+        Args:
+            path: of the file, .html.
+            **options: `times`, seconds; a parameter's values by its name; `text`, `title`, `limit` and so on.
+        """
+        return device("bake")(self, path, **options)
+
+    def render(self, path: str | Path, **options: Any) -> Any:
+        """Draw a still picture of what a reader sees.
+
+        Args:
+            path: of the file, .png.
+            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
+        """
+        return device("render")(self, path, **options)
+
+    def serve(self, *, port: int = 0, host: str = "127.0.0.1", **options: Any) -> Any:
+        """Serve a page to many readers, each of whom is at a point of their own; it needs `reactive4d[trame]`.
+
+        Args:
+            port: 0 for any that is free.
+            host: by default it can be reached from this machine alone.
+            **options: `block`, whether to wait until ctrl-C; `text`, `title`, `times` and so on; a parameter's value
+                by its name.
+        """
+        return device("serve")(self, port=port, host=host, **options)

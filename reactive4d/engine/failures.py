@@ -1,6 +1,5 @@
 """Errors as answers: an exception that a rule raised, remembered without the frames that it came through."""
 
-import copy
 import traceback
 from collections.abc import Callable
 from typing import Any
@@ -46,7 +45,7 @@ def raised(answer: Failure) -> Exception:
     """A fresh exception to raise, with the path on which it came up as notes."""
     kind = type(answer.error)
     try:
-        error = copy.copy(answer.error)
+        error = _copied(answer.error)
         if type(error) is not kind or _message(error) != _message(answer.error):
             raise TypeError
     except Exception:  # noqa: BLE001  its class wants other arguments than it keeps: copy it without its `__init__`
@@ -65,6 +64,16 @@ def _message(error: Exception) -> str:
         return str(error)
     except Exception:  # noqa: BLE001  the user's own `__str__`
         return "<no message>"
+
+
+def _copied(error: Exception) -> Exception:
+    """A copy as its class reduces it. `copy.copy` would ask the table that tblib, and so Dask, writes itself into."""
+    reduced: Any = error.__reduce_ex__(4)
+    make, args, *state = reduced
+    made: Any = make(*args)
+    if state and state[0]:
+        made.__setstate__(state[0])
+    return made
 
 
 def _remade(error: Exception) -> Exception:

@@ -40,6 +40,7 @@ __all__ = [
     "transform_points",
     "transform_vectors",
     "translation",
+    "turned",
 ]
 
 Matrix: TypeAlias = NDArray[np.float64]
@@ -279,6 +280,20 @@ def look_at(position: Triple, target: Triple, up: Axis = "z", *, forward: str = 
         raise hint(ShapeError(f"forward: {forward!r} is no local axis"), f"one of {', '.join(_AXES)}")
     (a, b, c), (d, e, f), (g, h, i) = columns
     return _matrix(((a, d, g, px), (b, e, h, py), (c, f, i, pz), (0.0, 0.0, 0.0, 1.0)))
+
+
+def turned(linear: Matrix) -> Matrix:
+    """The turn in a linear map: the orthogonal factor (3, 3) that is nearest to it; it mirrors where the map does.
+
+    >>> turned(np.diag([2.0, 3.0, -4.0])).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]
+    """
+    square = linear.T @ linear
+    lengths = np.sqrt(np.diagonal(square))
+    if lengths.all() and np.abs(square - np.diag(lengths**2)).max() <= 1e-12 * square.max():
+        return linear / lengths
+    u, _, v = np.linalg.svd(linear)
+    return u @ v
 
 
 def _cross(a: tuple[float, float, float], b: tuple[float, float, float]) -> tuple[float, float, float]:

@@ -17,7 +17,7 @@ from reactive4d.errors import ParameterError
 from reactive4d.illustrations.kinds import Kind, admitted, choices_of, hexadecimal, kind_of
 from reactive4d.signals.sources import Parameter
 
-__all__ = ["Control", "Wire", "control_of", "control_of_axis", "number_of"]
+__all__ = ["Control", "Wire", "control_of", "control_of_axis", "listed", "number_of"]
 
 # What travels: None, a truth value, a number, a string, or a pair of numbers as a tuple.
 Wire: TypeAlias = Any
@@ -158,12 +158,12 @@ class Control:
             "label": self.label,
             "doc": self.doc,
             "unit": self.unit,
-            "default": _listed(self.default),
-            "bounds": _listed(self.bounds),
-            "soft": _listed(self.soft),
+            "default": listed(self.default),
+            "bounds": listed(self.bounds),
+            "soft": listed(self.soft),
             "step": self.step,
-            "options": _listed(self.options),
-            "labels": _listed(self.labels),
+            "options": listed(self.options),
+            "labels": listed(self.labels),
             "stops": None,
             "grade": "fixed" if self.constant else "free",
             "why": "it is constant" if self.constant else "",
@@ -315,5 +315,10 @@ def truth_of(text: str) -> bool | None:
     return {"true": True, "false": False}.get(text)
 
 
-def _listed(value: Any) -> Any:
-    return [_listed(part) for part in value] if isinstance(value, tuple | list) else value  # pyright: ignore
+def listed(value: Any) -> Any:
+    """A value that travels as JSON has it: a pair is a list.
+
+    >>> listed((1, 2)), listed("a")
+    ([1, 2], 'a')
+    """
+    return [listed(part) for part in value] if isinstance(value, tuple | list) else value  # pyright: ignore

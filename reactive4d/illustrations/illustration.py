@@ -1,12 +1,11 @@
 """Illustrations: models whose parameters readers drive. A class has one model and one memo, a reader a point."""
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import param
 
-from reactive4d.devices import device
+from reactive4d.devices import Showable
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
 from reactive4d.illustrations.bookmarks import Bookmark, Look
 from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_value
@@ -80,7 +79,7 @@ class _OfClass:
         raise hint(AttributeError("signals cannot be set"), "a reader sets a parameter: fig.length = value")
 
 
-class Illustration(param.Parameterized):
+class Illustration(Showable, param.Parameterized):
     """A model whose parameters readers drive; `build` describes it once for all of them.
 
     Parameters are declared with param: Number, Integer, Magnitude, Boolean, Selector, Color, Range and XYCoordinates.
@@ -210,46 +209,6 @@ class Illustration(param.Parameterized):
             raise hint(error, "of a link: r4.Bookmark.from_link(text, fig)")
         settle(self, value.parameters)
         self._time, self._camera = value.time, value.camera
-
-    # -- devices ---------------------------------------------------------------------------------------------------
-
-    def _ipython_display_(self) -> None:
-        """As the last line of a cell it is shown; where there is no notebook, it is told as anything else."""
-        if not device("display")(self):
-            raise NotImplementedError
-
-    def show(self, **options: Any) -> Any:
-        """Put it before a reader: in a window, or in a cell of a notebook."""
-        return device("show")(self, **options)
-
-    def bake(self, path: str | Path, **options: Any) -> Any:
-        """Write one page that needs no server: figure, player, controls.
-
-        Args:
-            path: of the file, .html.
-            **options: `times`, seconds; a parameter's values by its name; `text`, `title`, `limit` and so on.
-        """
-        return device("bake")(self, path, **options)
-
-    def render(self, path: str | Path, **options: Any) -> Any:
-        """Draw a still picture of what this reader sees.
-
-        Args:
-            path: of the file, .png.
-            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
-        """
-        return device("render")(self, path, **options)
-
-    def serve(self, *, port: int = 0, host: str = "127.0.0.1", **options: Any) -> Any:
-        """Serve a page to many readers, each of whom is at a point of their own; it needs `reactive4d[trame]`.
-
-        Args:
-            port: 0 for any that is free.
-            host: by default it can be reached from this machine alone.
-            **options: `block`, whether to wait until ctrl-C; `text`, `title`, `times` and so on; a parameter's value
-                by its name.
-        """
-        return device("serve")(self, port=port, host=host, **options)
 
 
 def _refuse_taken(cls: type, name: str) -> None:

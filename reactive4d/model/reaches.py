@@ -22,7 +22,7 @@ from reactive4d.signals.warps import Follow
 if TYPE_CHECKING:
     from reactive4d.model.scenes import Scene
 
-__all__ = ["as_times", "key_times", "parameters_of", "span"]
+__all__ = ["alive", "as_times", "key_times", "parameters_of", "span"]
 
 INF = math.inf
 SOME = (0.0, 10.0)  # seconds, where no key says how long something takes
@@ -131,7 +131,7 @@ def _reached(scene: "Scene") -> Iterator[tuple[Any, Maps]]:
 def _parts(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:
     """What lies directly below an object or a signal, and through which map of time it is read."""
     if isinstance(thing, Object):
-        for part in _alive(thing.assigned()):
+        for part in alive(thing.assigned()):
             yield part, None
         return
     cell: Any = thing
@@ -140,7 +140,7 @@ def _parts(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:
             yield entry[0], entry[1]
         else:
             yield entry, None
-    for part in _alive(_named(cell)):
+    for part in alive(_named(cell)):
         yield part, None
 
 
@@ -166,15 +166,15 @@ def _named(cell: Any) -> Iterator[Any]:
         yield known.original, known.parameters
 
 
-def _alive(things: Iterable[Any]) -> Iterator[Any]:
+def alive(things: Iterable[Any]) -> Iterator[Any]:
     """The objects and signals among these, and in lists of them."""
     for thing in things:
         if isinstance(thing, Cell | Object):
             yield thing
         elif isinstance(thing, tuple | list):
-            yield from _alive(thing)  # pyright: ignore[reportUnknownArgumentType]
+            yield from alive(thing)  # pyright: ignore[reportUnknownArgumentType]
         elif isinstance(thing, Mapping):
-            yield from _alive(thing.values())  # pyright: ignore[reportUnknownArgumentType]
+            yield from alive(thing.values())  # pyright: ignore[reportUnknownArgumentType]
 
 
 def _seen(times: Iterable[float], maps: Maps) -> list[float]:

@@ -6,7 +6,7 @@ from typing import Any, NoReturn, Self
 
 import numpy as np
 
-from reactive4d.devices import device
+from reactive4d.devices import Showable
 from reactive4d.engine import Source, engine
 from reactive4d.errors import Reactive4dError, ShapeError, TimeError, hint, unknown
 from reactive4d.model.bundles import Bundle, Gathered, Root
@@ -36,7 +36,7 @@ class Contents(Signal[Items], Source):
         return [] if old == new else [(-float("inf"), float("inf"))]
 
 
-class Scene(MutableMapping[str, Object]):
+class Scene(Showable, MutableMapping[str, Object]):
     """Named objects in an order. A scene holds what it names, and names what has no name yet.
 
     `signals` are signals and values that have a name in its script: variables to be set, parameters to be driven.
@@ -244,44 +244,6 @@ class Scene(MutableMapping[str, Object]):
     def handles(self) -> tuple[Handle, ...]:
         """What readers can take hold of, in the order in which it was said."""
         return self._handles
-
-    def _ipython_display_(self) -> None:
-        """As the last line of a cell it is shown; where there is no notebook, it is told as anything else."""
-        if not device("display")(self):
-            raise NotImplementedError
-
-    def show(self, **options: Any) -> Any:
-        """Put it before a reader: in a window, or in a cell of a notebook."""
-        return device("show")(self, **options)
-
-    def bake(self, path: str | Path, **options: Any) -> Any:
-        """Write one page that needs no server: figure, player, controls.
-
-        Args:
-            path: of the file, .html.
-            **options: `times`, seconds; a parameter's values by its name; `text`, `title`, `limit` and so on.
-        """
-        return device("bake")(self, path, **options)
-
-    def render(self, path: str | Path, **options: Any) -> Any:
-        """Draw a still picture.
-
-        Args:
-            path: of the file, .png.
-            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
-        """
-        return device("render")(self, path, **options)
-
-    def serve(self, *, port: int = 0, host: str = "127.0.0.1", **options: Any) -> Any:
-        """Serve a page to many readers, each of whom is at a point of their own; it needs `reactive4d[trame]`.
-
-        Args:
-            port: 0 for any that is free.
-            host: by default it can be reached from this machine alone.
-            **options: `block`, whether to wait until ctrl-C; `text`, `title`, `times` and so on; a parameter's value
-                by its name.
-        """
-        return device("serve")(self, port=port, host=host, **options)
 
     def _rooted(self) -> Root:
         """The nodes of all objects, in bundles of bundles; what the last ones had in common with these is kept."""

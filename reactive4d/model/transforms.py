@@ -196,21 +196,11 @@ class LookAt(Transform):
     @staticmethod
     def matrix(target: Array, up: Array, forward: str, before: Array, position: Array) -> Array:
         """(4, 4), about `position`: it undoes the turns before it, and keeps what they scaled."""
-        turn = transforms.look_at(position, target, up, forward=forward)[:3, :3] @ _turned(before[:3, :3]).T
+        turn = transforms.look_at(position, target, up, forward=forward)[:3, :3] @ transforms.turned(before[:3, :3]).T
         matrix = np.eye(4)
         matrix[:3, :3] = turn
         matrix[:3, 3] = position - turn @ position
         return matrix
-
-
-def _turned(linear: Array) -> Array:
-    """The turn in a linear map: the orthogonal factor that is nearest to it."""
-    square = linear.T @ linear
-    lengths = np.sqrt(np.diagonal(square))
-    if lengths.all() and np.abs(square - np.diag(lengths**2)).max() <= 1e-12 * square.max():
-        return linear / lengths
-    u, _, v = np.linalg.svd(linear)
-    return u @ v
 
 
 class LinkedXForm(Transform):

@@ -78,12 +78,14 @@ def _parsed(text: str) -> Script:
         comments.here = token.index
         if previous is None or previous.type == "_SEMI":
             before, opening = opening, token
+        wrong: ScriptError | None = None
         try:
             script = parser.feed_token(token)
         except _unexpected():
-            if previous is not None and opening is token:
-                raise _no_statement(token, previous, before) from None
-            raise _wrong(token, previous, parser.accepts()) from None
+            is_opening = previous is not None and opening is token
+            wrong = _no_statement(token, previous, before) if is_opening else _wrong(token, previous, parser.accepts())
+        if wrong is not None:  # raised here, it has no context: what the parser raises cannot be pickled
+            raise wrong
         previous = token
     after = list(comments.rest())
     while after and not after[-1]:

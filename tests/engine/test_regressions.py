@@ -1,5 +1,6 @@
 """What the fuzzer and a reader found, each as small as it would go."""
 
+import copyreg
 import gc
 import math
 import sys
@@ -155,6 +156,26 @@ def test_an_exception_that_cannot_be_copied_gathers_no_notes(cached: Case) -> No
     assert len({id(error) for error in raised}) == 5
     assert [error.what for error in raised] == ["luck"] * 5
     assert [error.__notes__ for error in raised] == [["while evaluating x at t = 0"]] * 5
+
+
+def test_how_others_copy_exceptions_changes_nothing(cached: Case, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask's tblib registers a way to pickle exceptions, in which the copies share one dictionary."""
+
+    def shared(error: ValueError) -> Any:
+        def remade() -> ValueError:
+            made = ValueError.__new__(ValueError)
+            made.args, made.__dict__ = error.args, error.__dict__
+            return made
+
+        return remade, ()
+
+    monkeypatch.setitem(copyreg.dispatch_table, ValueError, shared)
+    s = cached.source(1.0)
+    x = cached.formula("x", lambda value: int("one") + value, s)
+    for _ in range(3):
+        with pytest.raises(ValueError, match="invalid literal") as caught:
+            x.at(0.0)
+        assert caught.value.__notes__ == ["while evaluating x at t = 0"]
 
 
 def test_errors_that_carry_arrays_are_compared_without_their_own_equality(cached: Case) -> None:

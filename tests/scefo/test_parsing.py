@@ -254,6 +254,7 @@ def test_a_long_line_is_shown_round_the_place() -> None:
 def test_the_error_is_one_of_ours_and_can_be_sent_to_another_process() -> None:
     """A ScriptError is a Reactive4dError, and is pickled whole."""
     error = refused("x")
+    assert error.__context__ is None  # where Dask is loaded, it would be pickled too
 
     again = pickle.loads(pickle.dumps(error))
     assert isinstance(error, Reactive4dError)

@@ -13,6 +13,7 @@ from reactive4d.errors import ShapeError, UnknownNameError, hint, unknown
 from reactive4d.geometry.files import put
 from reactive4d.illustrations import Figure, Page
 from reactive4d.illustrations import subject as subject_of
+from reactive4d.illustrations.controls import listed
 from reactive4d_widgets.bundles import packed, styles
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.estimates import estimated, refuse_if_too_large, too_large
@@ -233,15 +234,11 @@ def _can_share(plan: Plan, options: Mapping[str, Any], other: Shown) -> bool:
         name = entry["name"]
         wish = plan.controls[name].encode(plan.opens[name])
         here = other.table.manifest["point"]["parameters"][name]
-        if entry["grade"] == "fixed" and _listed(wish) != here:
+        if entry["grade"] == "fixed" and listed(wish) != here:
             return False
-        if entry["grade"] == "stops" and _listed(wish) not in entry["stops"]:
+        if entry["grade"] == "stops" and listed(wish) not in entry["stops"]:
             return False
     return True
-
-
-def _listed(wire: Any) -> Any:
-    return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
 
 
 def _served(

@@ -20,7 +20,7 @@ from reactive4d.signals.functions import Function
 from reactive4d.signals.sources import Parameter
 from reactive4d_widgets.seats import Channel, Seat, opens
 
-__all__ = ["furnish", "undeformed", "values_of"]
+__all__ = ["at_rest", "furnish", "values_of"]
 
 # By what is drawn: which channels a viewer wants besides `visible`, `drawn`, `matrix` and `color`.
 SETTINGS: Mapping[str, tuple[str, ...]] = {
@@ -180,7 +180,7 @@ _OWN: Mapping[str, Callable[[Object], Signal[Any]]] = {
 }
 
 
-def undeformed(obj: Object) -> Signal[Any]:
+def _undeformed(obj: Object) -> Signal[Any]:
     """(V, 3), the points before all deformations, if there are as many as after them, else None."""
 
     def answer(o: Object) -> Any:
@@ -205,3 +205,26 @@ def values_of(signals: Mapping[str, Any]) -> list[Channel]:
         if isinstance(signal, Signal) and not isinstance(signal, Parameter):
             found.append(Channel(f"#values.{name}", f"values.{name}", signal, None, signal))  # pyright: ignore
     return found
+
+
+def at_rest(channel: Channel, count: int, ask: Callable[[Signal[Any]], Any]) -> Any:
+    """The points from which creases are found: before all deformations, if there are enough, else as they are.
+
+    Args:
+        channel: of the surface.
+        count: how many points its faces need.
+        ask: answers a signal with a `value` or an `error`.
+
+    Returns:
+        (V, 3), V at least `count`; None if nothing answers so many.
+    """
+    seat = channel.seat
+    assert seat is not None
+    signals = [seat.channels["points"].signal]
+    if seat.object is not None:
+        signals.insert(0, _undeformed(seat.object))
+    for signal in signals:
+        found = ask(signal)
+        if found.error is None and found.value is not None and len(found.value) >= count:
+            return found.value
+    return None

@@ -8,7 +8,7 @@ is shown, disabled, and says what would have to be computed again.
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reactive4d.illustrations.controls import Control
+from reactive4d.illustrations.controls import Control, listed
 from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.sweeps import Asker
 
@@ -64,14 +64,10 @@ def described(
     stops = asker.stops.get(name)
     if stops is None or len(stops) == 1:
         return {**found, "grade": "fixed", "why": _why(control, asker.base[name], used)}
-    travelling = [_listed(control.encode(stop)) for stop in stops]
+    travelling = [listed(control.encode(stop)) for stop in stops]
     if all(name in segment.blend for segment in segments if name in segment.where):
         return {**found, "grade": "free", "stops": travelling, "bounds": [min(travelling), max(travelling)]}
     return {**found, "grade": "stops", "stops": travelling}
-
-
-def _listed(wire: Any) -> Any:
-    return list(wire) if isinstance(wire, tuple) else wire  # pyright: ignore
 
 
 def _why(control: Control, value: Any, channels: Sequence[str]) -> str:

@@ -19,11 +19,11 @@ import traitlets
 
 from reactive4d.errors import Reactive4dError, hint
 from reactive4d.illustrations import Bookmark, Illustration, subject
+from reactive4d.illustrations.controls import listed
 from reactive4d.illustrations.settling import settle
 from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.figures import OPTIONS, checked_options
 from reactive4d_widgets.live import Reader
-from reactive4d_widgets.live.answering import listed
 from reactive4d_widgets.loaders import LOADER, bundle
 from reactive4d_widgets.stills import poster
 

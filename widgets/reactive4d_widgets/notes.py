@@ -5,6 +5,7 @@ from typing import Any
 
 from reactive4d.errors import Reactive4dError
 from reactive4d.illustrations import Bookmark
+from reactive4d.illustrations.controls import listed
 from reactive4d_widgets.figures import Shown
 
 __all__ = ["notes"]
@@ -55,11 +56,7 @@ def _missed(figure: Shown, point: str) -> Iterator[str]:
     for name, value in given.items():
         if name not in named or name not in entries:
             continue
-        entry, wire = entries[name], _listed(value)
+        entry, wire = entries[name], listed(value)
         held = [opens[name]] if entry["grade"] == "fixed" else entry["stops"] if entry["grade"] == "stops" else None
         if held is not None and wire not in held:
             yield f"the link #{point}: the page holds no {name} = {wire}, only {', '.join(map(str, held))}"
-
-
-def _listed(wire: Any) -> Any:
-    return [*wire] if type(wire) is tuple else wire  # pyright: ignore

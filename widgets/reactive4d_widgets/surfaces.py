@@ -11,11 +11,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from reactive4d.errors import ShapeError
 from reactive4d.references import reference
-from reactive4d_widgets.channels import undeformed
+from reactive4d_widgets.channels import at_rest
 from reactive4d_widgets.creases import split
 from reactive4d_widgets.pieces import Piece, pieces_of
 from reactive4d_widgets.seats import Channel
@@ -139,7 +138,7 @@ class Surfaces:
         key = _key(box.value)
         if key not in self._splits:
             faces, weld, groups = box.value
-            points = self._at_rest(channel, box.asked, where, 1 + int(faces.max(initial=-1)))
+            points = at_rest(channel, 1 + int(faces.max(initial=-1)), lambda x: self.asker.ask(x, box.asked, where))
             if points is None:
                 return box.saying(None)
             made = split(points, faces, weld=weld, groups=groups)
@@ -149,19 +148,6 @@ class Surfaces:
                 "edges": self.store.keep(made.edges, "indices"),
             }
         return box.saying(self._splits[key])
-
-    def _at_rest(self, channel: Channel, t: float, where: Mapping[str, Any], count: int) -> NDArray[Any] | None:
-        """The points from which creases are found: before all deformations, if there are as many, else as they are."""
-        seat = channel.seat
-        assert seat is not None
-        signals = [seat.channels["points"].signal]
-        if seat.object is not None:
-            signals.insert(0, undeformed(seat.object))
-        for signal in signals:
-            found = self.asker.ask(signal, t, where)
-            if found.error is None and found.value is not None and len(found.value) >= count:
-                return found.value
-        return None
 
 
 def _key(parts: Any) -> tuple[str | None, ...]:

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from reactive4d.boxes import Answer, answer
 from reactive4d.errors import Reactive4dError, ShapeError
+from reactive4d.illustrations.controls import listed
 from reactive4d.intervals import Interval
 from reactive4d.references import reference
 from reactive4d.signals.facade import Signal
-from reactive4d_widgets.channels import undeformed
+from reactive4d_widgets.channels import at_rest
 from reactive4d_widgets.creases import split
 from reactive4d_widgets.live.records import Record
 from reactive4d_widgets.live.vaults import Vault
@@ -28,7 +29,7 @@ from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.spans import Span
 from reactive4d_widgets.writing import between, constant, is_numeric, plain, told
 
-__all__ = ["Answerer", "Place", "listed", "refs_in"]
+__all__ = ["Answerer", "Place", "refs_in"]
 
 SHORT = 0.125  # of a tick: what holds for a shorter time is not followed
 MOST_SPLITS = 256
@@ -194,7 +195,7 @@ class Answerer:
             if not channel.is_array:
                 said.value = plain(found.value)
             elif found.value is not None:
-                said.value = self._packed(channel, found.value, t, place, said)
+                said.value = self._packed(channel, found.value, t, place)
         except ShapeError as error:
             said.error = told(error)
         said.refs = refs_in(said.value) if channel.is_array else ()
@@ -202,7 +203,7 @@ class Answerer:
 
     # -- arrays ------------------------------------------------------------------------------------------------------
 
-    def _packed(self, channel: Channel, value: Any, t: float, place: Place, said: _Said) -> Any:
+    def _packed(self, channel: Channel, value: Any, t: float, place: Place) -> Any:
         """An array, or several, by references."""
         if channel.what == "points":
             _refuse_infinite(np.asarray(value))
@@ -214,7 +215,7 @@ class Answerer:
         key = tuple([None if part is None else reference(part) for part in value])
         made = self._splits.get(key)
         if made is None or not all(ref in self.vault for ref in refs_in(made)):
-            made = self._split(channel, value, t, place, said)
+            made = self._split(channel, value, t, place)
             if made is None:
                 return None
             if len(self._splits) >= MOST_SPLITS:
@@ -222,9 +223,9 @@ class Answerer:
             self._splits[key] = made
         return made
 
-    def _split(self, channel: Channel, value: Any, t: float, place: Place, said: _Said) -> dict[str, Any] | None:
+    def _split(self, channel: Channel, value: Any, t: float, place: Place) -> dict[str, Any] | None:
         faces, weld, groups = value
-        points = self._at_rest(channel, t, place, 1 + int(faces.max(initial=-1)), said)
+        points = at_rest(channel, 1 + int(faces.max(initial=-1)), lambda x: self.ask(x, t, place, []))
         if points is None:
             return None
         made = split(points, faces, weld=weld, groups=groups)
@@ -233,19 +234,6 @@ class Answerer:
             "origin": None if made.origin is None else self.vault.keep(made.origin),
             "edges": self.vault.keep(made.edges),
         }
-
-    def _at_rest(self, channel: Channel, t: float, place: Place, count: int, said: _Said) -> NDArray[Any] | None:
-        """The points from which creases are found: before all deformations, if there are as many, else as they are."""
-        seat = channel.seat
-        assert seat is not None
-        signals = [seat.channels["points"].signal]
-        if seat.object is not None:
-            signals.insert(0, undeformed(seat.object))
-        for signal in signals:
-            found = self.ask(signal, t, place, [])
-            if found.error is None and found.value is not None and len(found.value) >= count:
-                return found.value
-        return None
 
 
 def _rest(channel: Channel, said: _Said) -> dict[str, Any]:
@@ -273,13 +261,3 @@ def _refuse_infinite(points: NDArray[Any]) -> None:
 
 def _end(t: float) -> float | None:
     return t if math.isfinite(t) else None
-
-
-def listed(wire: Any) -> Any:
-    """A value of a parameter as JSON has it: a pair is a list.
-
-    >>> listed((1, 2)), listed("a")
-    ([1, 2], 'a')
-    """
-    pair: Any = wire
-    return list(pair) if isinstance(wire, tuple) else pair

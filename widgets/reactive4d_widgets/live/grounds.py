@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
-from reactive4d.engine import Cell, Fixed, Source, TimeMap
+from reactive4d.engine import Fixed, Source, TimeMap
 from reactive4d.engine.evictions import tables
 from reactive4d.engine.frames import LOCK
 from reactive4d.engine.links import ANYWHERE
@@ -19,6 +19,7 @@ from reactive4d.model.changes import LANES, Lane
 from reactive4d.model.channels import Channel as Asked
 from reactive4d.model.lanes import entry_of
 from reactive4d.model.objects import Object
+from reactive4d.model.reaches import alive
 from reactive4d.signals.choices import Choice
 from reactive4d.signals.keys import Keys
 from reactive4d.signals.settables import Settable
@@ -143,7 +144,7 @@ def _objects(content: Any) -> Iterator[Object]:
 def _walk(starts: Sequence[Any]) -> Iterator[tuple[Source, Maps]]:
     done: set[tuple[int, tuple[int, ...]]] = set()
     kept: list[Any] = []  # what is looked at by its identity must not go away meanwhile
-    todo: list[tuple[Any, Maps]] = [(start, ()) for start in _alive(starts)]
+    todo: list[tuple[Any, Maps]] = [(start, ()) for start in alive(starts)]
     while todo:
         thing, maps = todo.pop()
         key = id(thing), tuple(map(id, maps))
@@ -164,7 +165,7 @@ def _below(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:
     """What lies directly below a cell or an object, and through which map of time it is read."""
     if isinstance(thing, Object):
         for part in _parts_of(thing, "anything"):
-            for one in _alive((part,)):
+            for one in alive((part,)):
                 yield one, None
         return
     known: Any = thing
@@ -179,32 +180,21 @@ def _below(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:
         else:
             yield entry[0], entry[1]
     if isinstance(thing, Asked):
-        for part in _alive(_parts_of(thing.object, thing.label)):  # pyright: ignore
+        for part in alive(_parts_of(thing.object, thing.label)):  # pyright: ignore
             yield part, None
     elif isinstance(thing, Keys):
-        for part in _alive([key.value for key in thing.curve.keys]):  # pyright: ignore[reportUnknownMemberType]
+        for part in alive([key.value for key in thing.curve.keys]):  # pyright: ignore[reportUnknownMemberType]
             yield part, None
     elif isinstance(thing, Settable):
-        for part in _alive((thing.content,)):  # pyright: ignore[reportUnknownMemberType]
+        for part in alive((thing.content,)):  # pyright: ignore[reportUnknownMemberType]
             yield part, None
     elif isinstance(thing, Choice):
-        for part in _alive((thing.condition, thing.yes, thing.no)):
+        for part in alive((thing.condition, thing.yes, thing.no)):
             yield part, None
     elif isinstance(thing, Followed):
         yield known.original, ANYWHERE
-        for part in _alive(thing.parameters):
+        for part in alive(thing.parameters):
             yield part, None
-
-
-def _alive(things: Iterable[Any]) -> Iterator[Any]:
-    """The objects and cells among these, and in lists of them."""
-    for thing in things:
-        if isinstance(thing, Cell | Object):
-            yield thing
-        elif isinstance(thing, tuple | list):
-            yield from _alive(thing)  # pyright: ignore[reportUnknownArgumentType]
-        elif isinstance(thing, Mapping):
-            yield from _alive(thing.values())  # pyright: ignore[reportUnknownArgumentType, reportUnknownMemberType]
 
 
 def seen(spans: Sequence[Span], maps: Maps) -> list[Span]:

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from reactive4d.illustrations import Control, Subject
+from reactive4d.illustrations.controls import listed
 from reactive4d_widgets.dependences import dependences
-from reactive4d_widgets.live.answering import listed
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.sights import outline, view
 from reactive4d_widgets.tables import marks

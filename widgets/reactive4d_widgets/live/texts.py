@@ -4,8 +4,9 @@ import math
 from typing import Any
 
 from reactive4d.boxes import Answer
+from reactive4d.illustrations.controls import listed
 from reactive4d.signals.facade import Signal
-from reactive4d_widgets.live.answering import Place, listed
+from reactive4d_widgets.live.answering import Place
 from reactive4d_widgets.live.records import Record
 from reactive4d_widgets.live.witnesses import Witness, witness
 from reactive4d_widgets.plans import Plan

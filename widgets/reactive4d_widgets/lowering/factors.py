@@ -9,23 +9,9 @@ from reactive4d.geometry import transforms
 from reactive4d.signals.rotations import quaternion_matrices
 from reactive4d_widgets.lowering.numerals import Array
 
-__all__ = ["OPERATIONS", "factor_matrix", "turned"]
+__all__ = ["OPERATIONS", "factor_matrix"]
 
 _ORIGIN = (0.0, 0.0, 0.0)
-
-
-def turned(linear: Array) -> Array:
-    """The orthogonal factor (3, 3) that is nearest to a linear map (3, 3); it mirrors where the map does.
-
-    >>> turned(np.diag([2.0, 3.0, -4.0])).tolist()
-    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]
-    """
-    square = linear.T @ linear
-    lengths = np.sqrt(np.diagonal(square))
-    if lengths.all() and np.abs(square - np.diag(lengths**2)).max() <= 1e-12 * square.max():
-        return linear / lengths
-    u, _, v = np.linalg.svd(linear)
-    return u @ v
 
 
 def _placed(linear: Array, translation: Any) -> Array:
@@ -44,7 +30,7 @@ def _stretched(stretch: Any) -> Array:
 
 def _aimed(before: Array, target: Any, up: Any, forward: str) -> Array:
     position = before[:3, 3]
-    turn = transforms.look_at(position, target, up, forward=forward)[:3, :3] @ turned(before[:3, :3]).T
+    turn = transforms.look_at(position, target, up, forward=forward)[:3, :3] @ transforms.turned(before[:3, :3]).T
     return _placed(turn, position - turn @ position)
 
 
