@@ -16,7 +16,7 @@ from reactive4d_widgets.prose import Cast
 from reactive4d_widgets.stills import poster
 from reactive4d_widgets.tables import Table
 
-__all__ = ["OPTIONS", "Shown", "checked_options"]
+__all__ = ["OPTIONS", "Shown", "checked_options", "formatted", "worded"]
 
 SIZE = (1280, 800)
 # One pixel that lets all light through: what stands where no picture can be drawn.
@@ -123,10 +123,10 @@ class Shown:
         numbers: dict[str, Callable[[str], str]] = {}
         for entry in self.table.manifest["values"]:
             value = self._played(played, f"#values.{entry['name']}")
-            numbers[entry["name"]] = lambda spec, v=value, e=entry: _formatted(v, spec or e["format"], e["unit"])
+            numbers[entry["name"]] = lambda spec, v=value, e=entry: formatted(v, spec or e["format"], e["unit"])
         for entry in self.table.manifest["parameters"]:
             wire = self.point["parameters"][entry["name"]]
-            numbers[entry["name"]] = lambda spec, w=wire, e=entry: _worded(w, spec, e)
+            numbers[entry["name"]] = lambda spec, w=wire, e=entry: worded(w, spec, e)
         return Cast(
             self.name,
             numbers,
@@ -197,7 +197,7 @@ def _lightest(png: bytes) -> tuple[str, bytes]:
     return ("webp", file.getvalue()) if file.tell() < len(png) else ("png", png)
 
 
-def _formatted(value: Any, spec: str, unit: str) -> str:
+def formatted(value: Any, spec: str, unit: str) -> str:
     """A value as the viewer writes it, too."""
     if value is None:
         return "–"
@@ -213,7 +213,7 @@ def _formatted(value: Any, spec: str, unit: str) -> str:
     return f"{text}{sign}" if sign[:1] in "°%′″" else f"{text}\u202f{sign}"
 
 
-def _worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:
+def worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:
     """A parameter's value as a reader finds it before the page has come to life."""
     if wire is None:
         return "none"
@@ -224,4 +224,4 @@ def _worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:
         return "on" if wire else "off"
     if entry["kind"] == "color":
         return str(wire)
-    return _formatted(wire, spec, entry["unit"])
+    return formatted(wire, spec, entry["unit"])
