@@ -22,14 +22,18 @@ _devices: dict[str, Device | str] = {
     "render": "reactive4d_widgets.stills:render",  # a still picture
     "serve": "reactive4d_apps.serving:serve",  # a page for many readers
     "show": "reactive4d_widgets.showing:show",  # a window, or a cell of a notebook
+    "to_pyvista": "reactive4d_widgets.blocks:blocks",  # PyVista's own data, to go on with
 }
+
+# Those that need more than the package does.
+_HINTS = {"serve": "pip install 'reactive4d[trame]'"}
 
 
 def names() -> tuple[str, ...]:
     """The names of all devices.
 
     >>> names()
-    ('bake', 'display', 'render', 'serve', 'show')
+    ('bake', 'display', 'render', 'serve', 'show', 'to_pyvista')
     """
     return tuple(sorted(_devices))
 
@@ -56,9 +60,8 @@ def device(name: str) -> Device:
             found = getattr(import_module(module), function)
         except (ImportError, AttributeError) as error:
             refusal = Reactive4dError(f"the device {name!r} cannot be used here: {error}")
-            raise hint(
-                refusal, f"it is {function} of {module}, which comes with reactive4d and needs what it needs"
-            ) from error
+            told = f"it is {function} of {module}, which comes with reactive4d and needs what it needs"
+            raise hint(refusal, _HINTS.get(name, told)) from error
     assert callable(found)
     return found
 
@@ -137,3 +140,12 @@ class Showable:
                 by its name.
         """
         return device("serve")(self, port=port, host=host, **options)
+
+    def to_pyvista(self, t: float | None = None, **options: Any) -> Any:
+        """What is drawn at one instant, as a `MultiBlock` of PyVista.
+
+        Args:
+            t: seconds; by default where the illustration's reader is, of a scene its beginning.
+            **options: `space`, "world" or "local"; a parameter's value by its name.
+        """
+        return device("to_pyvista")(self, t, **options)
