@@ -6,19 +6,19 @@ import math
 import os
 import shutil
 import sys
-import tempfile
 import webbrowser
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
 from reactive4d_apps import stories, sweeps
-from reactive4d_apps.demos import demonstrated
+from reactive4d_apps.demos import demonstrated, served
 from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import baked
 from reactive4d_apps.places import found
 from reactive4d_apps.shows import answers_of, show
+from reactive4d_widgets.displays import has_screen
 
 __all__ = ["main"]
 
@@ -61,14 +61,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
     """Do what a command says, and tell of it line by line."""
     if words.command == "demo":
-        place = words.output or Path(tempfile.mkdtemp(prefix="reactive4d-")) / "demo.html"
-        yield from demonstrated(place, check=words.check, width=width)
+        if words.output is not None:
+            yield from demonstrated(words.output, check=words.check, width=width)
+            return
+        browser, stay = (_browser(), None) if words.open else (None, True)
+        yield from served(check=words.check, port=words.port, host=words.host, browser=browser, stay=stay, width=width)
     elif words.command == "bake":
         scene = r4.Scene.load(words.script)
         place = words.output or Path(words.script).with_suffix(".html").name
         yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
     elif words.command == "serve":
-        browser = webbrowser.open if words.open else None
+        browser = _browser() if words.open else None
         yield from opened(found(words.place), port=words.port, host=words.host, browser=browser, width=width)
     elif words.command == "sweep":
         yield from sweeps.swept(words, width=width)
@@ -84,16 +87,19 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"reactive4d {version}")
     commands = parser.add_subparsers(dest="command", metavar="command", title="commands")
 
-    about = "make a page of a small animated scene, and open it"
+    about = "serve a small animated scene, and open its page"
     demo = commands.add_parser("demo", help=about, description=f"{about.capitalize()} in a browser, if there is one.")
-    _add_output(demo, "a temporary folder")
-    about = "write a picture of the page as well, and do not open it"
+    about = "write a page that needs no server instead, and open that"
+    demo.add_argument("-o", "--output", type=Path, metavar="page.html", help=about)
+    about = "draw a picture of the page instead of opening it, and end"
     demo.add_argument("--check", action="store_true", help=about)
+    _add_server(demo)
 
     about = "make a page of a script that needs no server"
     bake = commands.add_parser("bake", help=about, description=f"{about.capitalize()}.")
     bake.add_argument("script", metavar="script.scefo", help="a script; see docs/scefo.md")
-    _add_output(bake, "the script's name, here")
+    about = "where the page is written (default: the script's name, here)"
+    bake.add_argument("-o", "--output", type=Path, metavar="page.html", help=about)
     about = "the span that the page covers, seconds (default: that of the keys, else 0 to 10)"
     bake.add_argument("--times", type=_number, nargs=2, metavar=("START", "STOP"), help=about)
     bake.add_argument("--title", metavar="TEXT", help="what stands above the figure")
@@ -104,12 +110,7 @@ def _parser() -> argparse.ArgumentParser:
     serve = commands.add_parser("serve", help=about, description=f"{about.capitalize()}, until ctrl-C.")
     about = "a script; or a scene, an illustration or a page in a module or a file, which runs"
     serve.add_argument("place", metavar="file.scefo|module:Class|file.py:Class", help=about)
-    about = "on which it listens (default: any that is free)"
-    serve.add_argument("--port", type=int, default=0, metavar="N", help=about)
-    about = "to which it is bound (default 127.0.0.1: only this machine reaches it)"
-    serve.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=about)
-    about = "do not open a browser"
-    serve.add_argument("--no-open", dest="open", action="store_false", help=about)
+    _add_server(serve)
 
     sweeps.add_command(commands)
 
@@ -123,9 +124,22 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_output(parser: argparse.ArgumentParser, default: str) -> None:
-    about = f"where the page is written (default: {default})"
-    parser.add_argument("-o", "--output", type=Path, metavar="page.html", help=about)
+def _add_server(parser: argparse.ArgumentParser) -> None:
+    about = "on which it listens (default: any that is free)"
+    parser.add_argument("--port", type=int, default=0, metavar="N", help=about)
+    about = "to which it is bound (default 127.0.0.1: only this machine reaches it)"
+    parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=about)
+    about = "do not open a browser"
+    parser.add_argument("--no-open", dest="open", action="store_false", help=about)
+
+
+def _browser() -> Callable[[str], bool]:
+    """What opens an address; where nothing could be seen, nothing does."""
+    return webbrowser.open if has_screen() else _nobody
+
+
+def _nobody(address: str) -> bool:
+    return False
 
 
 def _number(word: str) -> float:

@@ -38,11 +38,11 @@ def driver() -> Any:
     return sync_api
 
 
-def photographed(page: Path, picture: Path, *, size: tuple[int, int] = (1100, 1000)) -> list[str]:
-    """Open a page in Chromium without a network, wait until its figures live, and write what is seen.
+def photographed(page: Path | str, picture: Path, *, size: tuple[int, int] = (1100, 1000)) -> list[str]:
+    """Open a page in Chromium, wait until its figures live, and write what is seen.
 
     Args:
-        page: of `bake`.
+        page: a file of `bake`, which is opened without a network; or the address of a server, as a text.
         picture: a PNG file to be written.
         size: of the window, CSS pixels.
 
@@ -59,9 +59,11 @@ def photographed(page: Path, picture: Path, *, size: tuple[int, int] = (1100, 10
     with playing.sync_playwright() as playwright:
         browser: Any = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
         try:
-            window = browser.new_page(viewport={"width": size[0], "height": size[1]}, offline=True)
-            _listen(window, said)
-            window.goto(page.resolve().as_uri())
+            is_file = isinstance(page, Path)
+            window = browser.new_page(viewport={"width": size[0], "height": size[1]}, offline=is_file)
+            address = page.resolve().as_uri() if isinstance(page, Path) else page
+            _listen(window, said, NEAR if is_file else (*NEAR, address))
+            window.goto(address)
             window.wait_for_function(
                 "() => { const all = [...document.querySelectorAll('r4d-figure')];"
                 " return all.length > 0 && all.every((figure) => figure.snapshot) }",
@@ -76,8 +78,8 @@ def photographed(page: Path, picture: Path, *, size: tuple[int, int] = (1100, 10
     return said
 
 
-def _listen(window: Any, said: list[str]) -> None:
-    """Note down what a window complains about, and what it asks for that is not in the file."""
+def _listen(window: Any, said: list[str], near: tuple[str, ...]) -> None:
+    """Note down what a window complains about, and what it asks for elsewhere."""
 
     def hear(line: Any) -> None:
         if line.type in ("error", "warning"):
@@ -87,7 +89,7 @@ def _listen(window: Any, said: list[str]) -> None:
         said.append(str(error))
 
     def ask(request: Any) -> None:
-        if not request.url.startswith(NEAR):
+        if not request.url.startswith(near):
             said.append(f"asks for {request.url}")
 
     window.on("console", hear)

@@ -1,20 +1,26 @@
-"""The demo: the first script of the paper on BAGS (1990), set in motion, as a page."""
+"""The demo: the first script of the paper on BAGS (1990), set in motion, served alive or as a page of its own."""
 
-from collections.abc import Iterator
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
 from importlib.resources import as_file, files
 from pathlib import Path
+from typing import Any
 
 import reactive4d as r4
+from reactive4d.devices import device
 from reactive4d_apps.browsers import chromium, driver, photographed
+from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import summary
 from reactive4d_apps.phrases import paragraph
+from reactive4d_widgets.displays import can_draw
 
-__all__ = ["PROSE", "SCRIPT", "TITLE", "demonstrated", "stored"]
+__all__ = ["LIVE", "PROSE", "SCRIPT", "TITLE", "demonstrated", "served", "stored"]
 
 SCRIPT = "figure1_moving.scefo"
 TITLE = "An egg, a cube, a camera and a light"
 
-PROSE = """
+STORY = """
 In 1990 a paper on the animation system BAGS printed a script of a few lines: some objects are read from files, one is
 made from another, and each gets a list of changes with times. Here the same scene moves.
 
@@ -24,7 +30,13 @@ Until [2 s](#t=2) [the egg](#egg) rises; now it is {height:.2f} m above the grou
 it rests, and the camera sets out for a quarter of a turn round the scene, which it has made [at 4 s](#t=4). The light
 turns all the time, and its colour goes from magenta to yellow while the camera moves: [at 3 s](#t=3) it is half way.
 
-None of the pictures was made beforehand. The page holds the curves of the script as they are, and asks them for
+None of the pictures was made beforehand. """
+
+PROSE = f"""{STORY}The page holds the curves of the script as they are, and asks them for
+whatever time the slider is at.
+"""
+
+LIVE = f"""{STORY}The page asks a model, which runs in the program that you started, for
 whatever time the slider is at.
 """
 
@@ -61,7 +73,7 @@ def demonstrated(path: str | Path, *, check: bool = False, width: int = 80) -> I
     if check:
         report = scene.bake(page, title=TITLE, text=PROSE)
         yield from summary(page, report.problems, width)
-        yield from _checked(scene, page, width)
+        yield from _looked_at(page, page.with_suffix(".png"), scene, width)
         return
     shown = scene.show(path=page, title=TITLE, text=PROSE, progress=True)
     yield from summary(page, (), width)
@@ -70,14 +82,57 @@ def demonstrated(path: str | Path, *, check: bool = False, width: int = 80) -> I
     )
 
 
-def _checked(scene: r4.Scene, page: Path, width: int) -> Iterator[str]:
-    picture = page.with_suffix(".png")
+def served(
+    *,
+    check: bool = False,
+    port: int = 0,
+    host: str = "127.0.0.1",
+    browser: Callable[[str], bool] | None = None,
+    stay: bool | None = None,
+    width: int = 80,
+) -> Iterator[str]:
+    """Serve the demo and open its page, or look at it, and tell what became of it.
+
+    Args:
+        check: whether the page is not opened but drawn as a picture: in Chromium where there is one, else what the page
+            shows first is drawn by PyVista. Then the server ends.
+        port: 0 for any that is free.
+        host: to which the server is bound.
+        browser: what opens an address, and says whether it could; None to open none.
+        stay: whether to wait until ctrl-C, even where no browser opened the page; by default where somebody sits at a
+            terminal who could press it.
+        width: of the terminal, in characters.
+
+    Returns:
+        The lines; with `check` the last one is the path of the picture, where there is anything to draw with.
+
+    Raises:
+        Reactive4dError: the server cannot start, or the browser complained about the page.
+    """
+    scene = stored()
+    options: dict[str, Any] = {"title": TITLE, "text": LIVE, "host": host, "port": port}
+    if not check:
+        can_end = sys.stdin is not None and sys.stdin.isatty()
+        yield from opened(scene, browser=browser, stay=can_end if stay is None else stay, width=width, **options)
+        return
+    with device("serve")(scene, block=False, **options) as server:
+        yield server.address
+        yield from _looked_at(server.address, Path(tempfile.mkdtemp(prefix="reactive4d-")) / "demo.png", scene, width)
+
+
+def _looked_at(place: Path | str, picture: Path, scene: r4.Scene, width: int) -> Iterator[str]:
+    """Draw what a reader sees, with the best that is here."""
     if chromium() is None or driver() is None:
+        told = "There is no Chromium with Playwright here"
+        if not can_draw():
+            yield from paragraph(f"{told}, and nothing else to draw with.", width)
+            return
         scene.render(picture)
-        yield from paragraph("There is no Chromium with Playwright here; PyVista drew the scene:", width)
+        yield from paragraph(f"{told}; PyVista drew the scene:", width)
     else:
-        complaints = photographed(page, picture)
+        complaints = photographed(place, picture)
         if complaints:
-            raise r4.Reactive4dError(f"Chromium complains about {page}: {'; '.join(complaints)}")
-        yield from paragraph("Chromium opened it without a network, and showed:", width)
+            raise r4.Reactive4dError(f"Chromium complains about {place}: {'; '.join(complaints)}")
+        where = "without a network" if isinstance(place, Path) else "from the server"
+        yield from paragraph(f"Chromium opened it {where}, and showed:", width)
     yield str(picture)

@@ -134,13 +134,13 @@ FIGURE = Path(reactive4d.__file__).parent / "scefo" / "scenes" / "figure1_moving
 
 
 @pytest.mark.parametrize("columns", [45, 80])
-def test_the_demo_says_where_its_page_is(columns: int, tmp_path: Path):
+def test_the_demo_can_be_a_page_without_a_server(columns: int, tmp_path: Path):
     """Without a display no browser is tried; the page lies where it is said to."""
-    run = python("-m", "reactive4d", "demo", COLUMNS=str(columns), TMPDIR=str(tmp_path))
+    page = tmp_path / "demo.html"
+    run = python("-m", "reactive4d", "demo", "-o", str(page), COLUMNS=str(columns))
     assert (run.returncode, run.stderr) == (0, "")
     first, *others = run.stdout.splitlines()
-    page = Path(first.partition(": ")[0])
-    assert tmp_path in page.parents
+    assert first.startswith(f"{page}: ")
     assert "<r4d-figure" in page.read_text(encoding="utf-8")
     assert first.endswith(" KB")
     assert max(map(len, others)) <= columns

@@ -1,4 +1,7 @@
-"""Displays: on what VTK can draw here. It is found out first, for VTK ends the process where there is nothing."""
+"""Displays: on what is drawn here: a screen, or what VTK can draw on without one.
+
+It is found out first, for VTK ends the process where there is nothing.
+"""
 
 import ctypes
 import os
@@ -10,7 +13,7 @@ from typing import Any
 
 from reactive4d.errors import EvaluationError, hint
 
-__all__ = ["can_draw", "drawable"]
+__all__ = ["can_draw", "drawable", "has_screen"]
 
 CHOICE = "VTK_DEFAULT_OPENGL_WINDOW"
 EGL_PLATFORM_DEVICE = 0x313F
@@ -52,6 +55,12 @@ def can_draw() -> bool:
             return True
     except EvaluationError:
         return False
+
+
+def has_screen() -> bool:
+    """Whether a browser could show something: on Linux without a display those that are found draw letters only."""
+    names = ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")
+    return not sys.platform.startswith("linux") or any(os.environ.get(name) for name in names)
 
 
 def _window() -> str:

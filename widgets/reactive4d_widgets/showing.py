@@ -1,7 +1,6 @@
 """Showing: a scene or an illustration is put before whoever runs the program, as a page in their browser."""
 
 import os
-import sys
 import tempfile
 import webbrowser
 from collections.abc import Callable
@@ -12,6 +11,7 @@ from typing import Any
 from reactive4d.illustrations import subject
 from reactive4d_widgets.baking import bake
 from reactive4d_widgets.cells import in_notebook
+from reactive4d_widgets.displays import has_screen
 from reactive4d_widgets.figures import OPTIONS
 
 __all__ = ["Shown", "show"]
@@ -66,14 +66,8 @@ def show(
     target = Path(tempfile.mkdtemp(prefix="reactive4d-")) / f"{name or 'page'}.html" if path is None else Path(path)
     figure = {key: options.pop(key) for key in OPTIONS if key in options}
     bake(thing, target, options={**figure, **(options.pop("options", None) or {})}, progress=progress, **options)
-    opens = browser or (webbrowser.open if _has_screen() else _nobody)
+    opens = browser or (webbrowser.open if has_screen() else _nobody)
     return Shown(target, is_open=bool(opens(target.resolve().as_uri())))
-
-
-def _has_screen() -> bool:
-    """Whether a browser could show something: on Linux without a display those that are found draw letters only."""
-    names = ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")
-    return not sys.platform.startswith("linux") or any(os.environ.get(name) for name in names)
 
 
 def _nobody(address: str) -> bool:
