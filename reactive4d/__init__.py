@@ -31,7 +31,7 @@ from reactive4d.model.kinds.arrows import Arrow
 from reactive4d.model.kinds.blobs import Blob
 from reactive4d.model.kinds.boxes import Box
 from reactive4d.model.kinds.cylinders import Cone, Cylinder, Quadric, Tube
-from reactive4d.model.kinds.models import Model
+from reactive4d.model.kinds.models import Model, Wire
 from reactive4d.model.kinds.patches import Patch
 from reactive4d.model.kinds.planes import Plane
 from reactive4d.model.kinds.polyhedra import Polyhedron, Teapot
@@ -183,6 +183,7 @@ __all__ = [
     "Variable",
     "Vector",
     "Wave",
+    "Wire",
     "XForm",
     "color",
     "contact_sheet",

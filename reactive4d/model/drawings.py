@@ -16,6 +16,7 @@ class Lines:
     Attributes:
         points: (N, 3) float32, in local space.
         lines: (K, 2) int32, which two points each straight piece joins; None where each point is joined to the next.
+        colors: (N, 4) float32, sRGB and alpha of each point; None where all are of the object's own.
 
     >>> import reactive4d as r4
     >>> frame = r4.Scene(way=r4.Path([(0, 0, 0), (1, 0, 0)], samples=8), ring=r4.Circle(segments=3)).at(0.0)
@@ -25,21 +26,32 @@ class Lines:
     [[0, 1], [1, 2], [2, 0]]
     """
 
-    __slots__ = ("lines", "points")
+    __slots__ = ("colors", "lines", "points")
 
     compares_exactly = True
 
-    def __init__(self, points: NDArray[np.float32], lines: NDArray[np.int32] | None = None) -> None:
+    def __init__(
+        self,
+        points: NDArray[np.float32],
+        lines: NDArray[np.int32] | None = None,
+        colors: NDArray[np.float32] | None = None,
+    ) -> None:
         self.points = points
         self.lines = lines
+        self.colors = colors
 
     @property
     def nbytes(self) -> int:
         """How many bytes the arrays take together."""
-        return self.points.nbytes + (0 if self.lines is None else self.lines.nbytes)
+        return sum(array.nbytes for array in (self.points, self.lines, self.colors) if array is not None)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Lines) and _same(self.points, other.points) and _same(self.lines, other.lines)
+        return (
+            isinstance(other, Lines)
+            and _same(self.points, other.points)
+            and _same(self.lines, other.lines)
+            and _same(self.colors, other.colors)
+        )
 
     def __hash__(self) -> int:
         return hash(self.points.tobytes())
@@ -53,26 +65,28 @@ class Points:
 
     Attributes:
         points: (N, 3) float32, in local space.
+        colors: (N, 4) float32, sRGB and alpha of each point; None where all are of the object's own.
 
     >>> import reactive4d as r4
     >>> r4.Scene(p=r4.Point((1, 2, 3))).at(0.0)["p"].drawn
     Points(1 point)
     """
 
-    __slots__ = ("points",)
+    __slots__ = ("colors", "points")
 
     compares_exactly = True
 
-    def __init__(self, points: NDArray[np.float32]) -> None:
+    def __init__(self, points: NDArray[np.float32], colors: NDArray[np.float32] | None = None) -> None:
         self.points = points
+        self.colors = colors
 
     @property
     def nbytes(self) -> int:
-        """How many bytes the array takes."""
-        return self.points.nbytes
+        """How many bytes the arrays take together."""
+        return self.points.nbytes + (0 if self.colors is None else self.colors.nbytes)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Points) and _same(self.points, other.points)
+        return isinstance(other, Points) and _same(self.points, other.points) and _same(self.colors, other.colors)
 
     def __hash__(self) -> int:
         return hash(self.points.tobytes())

@@ -11,6 +11,7 @@ from reactive4d.arrays import freeze
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.drawings import Lines, Points, strokes
 from reactive4d.model.forms import Base, Form
+from reactive4d.model.surfaces import paints_of
 from reactive4d.model.versions import Versions
 from reactive4d.signals.facade import Signal
 
@@ -145,9 +146,12 @@ def _drawn(obj: "Object", kind: "type[Object]") -> tuple[str, Any]:
         surface = obj.surface.now()
         if len(surface.faces):
             return "mesh", surface
-        return ("points", Points(surface.points)) if len(surface.points) else ("none", surface)
+        if not len(surface.points):
+            return "none", surface
+        return "points", Points(surface.points, surface.attributes.get("colors"))
     if form.part("points") is not None:
-        return "lines", Lines(obj.points.now(), obj.channel("strokes", _strokes).now())
+        points = obj.points.now()
+        return "lines", Lines(points, obj.channel("strokes", _strokes).now(), paints_of(obj, len(points), 0)[1])
     settings = MappingProxyType({name: obj.parameter(kind, name).now() for name in kind.settings})
     return kind.primitive, settings
 

@@ -31,9 +31,13 @@ def sources_of(obj: "Object") -> NDArray[np.int32] | None:
 
 
 def colors_of(obj: "Object") -> NDArray[np.float32] | None:
-    """(F, 4), the faces' own colours, or None; only inside of an evaluation."""
+    """(F, 4), the faces' own colours, or None; only inside of an evaluation.
+
+    Where points have colours, a face has that of its first corner: a boolean tells faces apart, not points.
+    """
     mesh = obj.surface.now()
-    return mesh.attributes.get("colors") if len(mesh.faces) else None
+    colors = mesh.attributes.get("colors") if len(mesh.faces) else None
+    return colors if colors is None or len(colors) == len(mesh.faces) else colors[mesh.faces[:, 0]]
 
 
 def groups_of(obj: "Object") -> NDArray[Any] | None:

@@ -17,7 +17,17 @@ from reactive4d.model.steps import step
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["bounds_of", "look_of", "mesh_of", "outline_of", "selection_of", "surface_of", "surface_part", "uv_of"]
+__all__ = [
+    "bounds_of",
+    "look_of",
+    "mesh_of",
+    "outline_of",
+    "paints_of",
+    "selection_of",
+    "surface_of",
+    "surface_part",
+    "uv_of",
+]
 
 Array = NDArray[np.float64]
 
@@ -51,10 +61,30 @@ def surface_of(obj: "Object") -> Mesh:
     if faces is None:
         faces = form.need("faces").now()
     parts: dict[str, Any] = {"uv": uv_of(obj), "weld": surface_part(obj, "weld")}
+    points = form.need("points").now()
+    parts["colors"], of_points = paints_of(obj, len(points), len(faces))
+    if of_points is not None:
+        parts["colors"] = of_points
+    return Mesh(points, faces, {name: part for name, part in parts.items() if part is not None})
+
+
+def paints_of(obj: "Object", points: int, faces: int) -> tuple[Any, Any]:
+    """(F, 4) the faces' own colours, or (V, 4) the points'; two times None where all are the object's.
+
+    Args:
+        obj: whose; only inside of an evaluation.
+        points: how many it has by now.
+        faces: how many; of what has none, colours are those of points.
+    """
     colors = base_of(obj, obj.kind.now()).part("colors")
-    if colors is not None and len(faces) == len(colors.now()):
-        parts["colors"] = colors.now()
-    return Mesh(form.need("points").now(), faces, {name: part for name, part in parts.items() if part is not None})
+    found = None if colors is None else colors.now()
+    if found is None or not len(found):
+        return None, None
+    if faces and len(found) == faces:
+        return found, None
+    # What makes another surface makes other points; how they come from the old ones nobody knows.
+    is_own = len(found) == points and not acting(entries(obj, "surface"))
+    return None, found if is_own else None
 
 
 def mesh_of(obj: "Object") -> Mesh:

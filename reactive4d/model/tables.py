@@ -28,7 +28,7 @@ METHODS: Mapping[str, str] = {
     "lines": "(n,) or (m, n) whole numbers: which points a line runs through, for what has no surface",
     "placement": "(4, 4): the matrix on which the transforms act; without it the identity",
     "solid": "a closed surface as booleans take it, in local space",
-    "colors": "(F, 4) a colour for every face, where they are not all of the object's own",
+    "colors": "(F, 4) a colour for every face, or (V, 4) for every point, where they are not all of the object's own",
     "intersect": "distance and normal of the first hit of rays in local space: (origins, directions, *, …)",
     "contains": "whether points of local space lie inside: (points, *, …)",
     "volume": "of the solid in local space",

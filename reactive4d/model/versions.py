@@ -24,8 +24,8 @@ _numbers = itertools.count()
 _EVERY = ("drawn", "visible", "color", "matrix")
 _MORE: dict[str, tuple[str, ...]] = {
     "mesh": ("points", "topology", "paints"),
-    "lines": ("points", "topology"),
-    "points": ("points",),
+    "lines": ("points", "topology", "paints"),
+    "points": ("points", "paints"),
     "label": ("settings",),
     "light": ("settings",),
     "camera": ("settings",),
@@ -37,8 +37,8 @@ class Versions(Mapping[str, str]):
     """The versions of one node's channels, by name: 32 hexadecimal digits each.
 
     `drawn`, `visible`, `color`, `matrix`; of a mesh `points`, `topology` (faces, welds and all else that belongs to
-    points or faces) and `paints`, their colours; of lines `points` and `topology`; of points `points`; of labels,
-    lights and cameras `settings`.
+    points or faces) and `paints`, their colours; of lines `points`, `topology` and `paints`; of points `points` and
+    `paints`; of labels, lights and cameras `settings`.
 
     >>> import reactive4d as r4
     >>> ball = r4.Sphere()
@@ -84,10 +84,10 @@ def _content(node: "Node", channel: str) -> Any:
         return tuple(sorted(drawn.items()))
     if channel == "points":
         return drawn.points
+    if channel == "paints":
+        return drawn.attributes.get("colors") if node.primitive == "mesh" else drawn.colors
     if node.primitive == "lines":
         return drawn.lines
-    if channel == "paints":
-        return drawn.attributes.get("colors")
     return (drawn.faces, *[(name, array) for name, array in sorted(drawn.attributes.items()) if name != "colors"])
 
 

@@ -114,12 +114,12 @@ def _data(node: Node, matrix: NDArray[np.float64]) -> Any:
             data.lines = np.concatenate([[count], np.arange(count)]) if count else np.zeros(0, np.int64)
         else:
             data.lines = np.concatenate([np.full((len(pairs), 1), 2), pairs], axis=1).ravel()
-        _paint(data, node, getattr(drawn, "colors", None))
+        _paint(data, node, drawn.colors)
     elif isinstance(drawn, Points):
         count = len(drawn.points)
         data.points = transform_points(matrix, drawn.points)
         data.verts = np.stack([np.ones(count, np.int64), np.arange(count)], axis=1).ravel()
-        _paint(data, node, getattr(drawn, "colors", None))
+        _paint(data, node, drawn.colors)
     else:
         data.points = transform_points(matrix, np.zeros((1, 3)))
         data.point_data["text"] = [str(drawn["text"])]

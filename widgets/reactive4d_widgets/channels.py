@@ -14,13 +14,13 @@ from reactive4d.model.forms import Base, Made
 from reactive4d.model.objects import Object
 from reactive4d.model.palettes import sources_of
 from reactive4d.model.stacks import base_of
-from reactive4d.model.surfaces import surface_part
+from reactive4d.model.surfaces import paints_of, surface_part
 from reactive4d.signals.facade import Signal
 from reactive4d.signals.functions import Function
 from reactive4d.signals.sources import Parameter
 from reactive4d_widgets.seats import Channel, Seat, opens
 
-__all__ = ["at_rest", "furnish", "values_of"]
+__all__ = ["at_rest", "furnish", "painted", "values_of"]
 
 # By what is drawn: which channels a viewer wants besides `visible`, `drawn`, `matrix` and `color`.
 SETTINGS: Mapping[str, tuple[str, ...]] = {
@@ -30,8 +30,8 @@ SETTINGS: Mapping[str, tuple[str, ...]] = {
 }
 ARRAYS: Mapping[str, tuple[str, ...]] = {
     "mesh": ("points", "topology", "paints"),
-    "lines": ("points", "topology"),
-    "points": ("points",),
+    "lines": ("points", "topology", "paints"),
+    "points": ("points", "paints"),
 }
 
 
@@ -152,12 +152,13 @@ def _topology(obj: Object) -> Any:
 
 
 def _paints(obj: Object) -> Any:
-    """(F, 4), the faces' own colours, or None."""
-    colors = base_of(obj, obj.kind.now()).part("colors")
-    if colors is None:
+    """The colours of the faces or of the points, (F, 4) and None, or None and (V, 4); or None."""
+    form = obj.form.now()
+    if base_of(obj, obj.kind.now()).part("colors") is None or form.part("points") is None:
         return None
-    found = colors.now()
-    return found if len(found) == len(obj.topology.now()) and len(found) else None
+    faces = 0 if form.part("faces") is None else len(obj.topology.now())
+    found = paints_of(obj, len(obj.points.now()), faces)
+    return None if found[0] is None and found[1] is None else found
 
 
 def _setting(obj: Object, name: str) -> Signal[Any]:
@@ -205,6 +206,17 @@ def values_of(signals: Mapping[str, Any]) -> list[Channel]:
         if isinstance(signal, Signal) and not isinstance(signal, Parameter):
             found.append(Channel(f"#values.{name}", f"values.{name}", signal, None, signal))  # pyright: ignore
     return found
+
+
+def painted(value: Any, keep: Callable[[Any], str]) -> dict[str, str]:
+    """What a channel of paints says, as it travels.
+
+    Args:
+        value: (F, 4) and None, or None and (V, 4).
+        keep: puts an array where it is kept, and says its reference.
+    """
+    sides = zip(("faces", "points"), value, strict=True)
+    return {side: keep(np.ascontiguousarray(part, dtype=np.float32)) for side, part in sides if part is not None}
 
 
 def at_rest(channel: Channel, count: int, ask: Callable[[Signal[Any]], Any]) -> Any:

@@ -96,6 +96,8 @@ def _each(plan: Plan, channel: Channel, k: int) -> int:
 def _arrays(channel: Channel, value: Any) -> list[Any]:
     if channel.what == "topology":
         return [np.asarray(part, dtype=np.uint32) for part in value[:1] if part is not None] * 2  # faces, and edges
+    if channel.what == "paints":
+        return [np.asarray(part, dtype=np.float32) for part in value if part is not None]
     return [np.asarray(value, dtype=np.float32)]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from reactive4d.errors import ShapeError
 from reactive4d.references import reference
-from reactive4d_widgets.channels import at_rest
+from reactive4d_widgets.channels import at_rest, painted
 from reactive4d_widgets.creases import split
 from reactive4d_widgets.pieces import Piece, pieces_of
 from reactive4d_widgets.seats import Channel
@@ -130,8 +130,7 @@ class Surfaces:
         if box.error is not None or box.value is None:
             return box
         if channel.what == "paints":
-            ref = self.store.keep(np.ascontiguousarray(box.value, dtype=np.float32), channel.name)
-            return box.saying({"faces": ref})
+            return box.saying(painted(box.value, lambda paints: self.store.keep(paints, channel.name)))
         if len(box.value) == 1:
             lines = box.value[0]
             return box.saying(None if lines is None else {"lines": self.store.keep(lines, "indices")})

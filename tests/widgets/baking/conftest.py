@@ -84,6 +84,8 @@ class Baked:
         assert np.abs(found - wanted).max(initial=0.0) <= 1e-4 * self.size, f"{name}#points at {t}"
         if node.primitive == "mesh":
             self._mesh(name, node.drawn, found, said("topology"), said("paints"))
+        else:
+            self._paints(name, said("paints"), node.drawn.colors)
         if node.primitive == "lines":
             topology = said("topology")
             lines = None if topology is None else topology["lines"]
@@ -96,9 +98,15 @@ class Baked:
         assert off.max(initial=0.0) <= 1e-4 * self.size, f"{name}#topology"
         assert topology["edges"].max(initial=0) < max(len(points), 1)
         colors = mesh.attributes.get("colors")
+        self._paints(
+            name, paints, colors, side="faces" if colors is None or len(colors) == len(mesh.faces) else "points"
+        )
+
+    def _paints(self, name: str, paints: Any, colors: Any, *, side: str = "points") -> None:
         assert (paints is None) == (colors is None), f"{name}#paints"
         if colors is not None:
-            assert np.abs(paints["faces"] - colors).max() <= 1 / 255
+            assert list(paints) == [side], f"{name}#paints"
+            assert np.abs(paints[side] - colors).max() <= 1 / 255
 
 
 @pytest.fixture

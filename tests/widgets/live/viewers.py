@@ -13,8 +13,8 @@ from reactive4d_widgets.lowering import play
 Message = dict[str, Any]
 NEEDS = {
     "mesh": ("color", "matrix", "points", "topology", "paints"),
-    "lines": ("color", "matrix", "points", "topology"),
-    "points": ("color", "matrix", "points"),
+    "lines": ("color", "matrix", "points", "topology", "paints"),
+    "points": ("color", "matrix", "points", "paints"),
     "label": ("color", "matrix", "text", "height"),
     "light": ("color", "matrix", "light_type", "intensity", "angle", "reach", "shadows"),
     "camera": ("matrix", "fov", "near", "far", "target"),

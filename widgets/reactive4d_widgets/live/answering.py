@@ -20,7 +20,7 @@ from reactive4d.illustrations.controls import listed
 from reactive4d.intervals import Interval
 from reactive4d.references import reference
 from reactive4d.signals.facade import Signal
-from reactive4d_widgets.channels import at_rest
+from reactive4d_widgets.channels import at_rest, painted
 from reactive4d_widgets.creases import split
 from reactive4d_widgets.live.records import Record
 from reactive4d_widgets.live.vaults import Vault
@@ -209,7 +209,7 @@ class Answerer:
             _refuse_infinite(np.asarray(value))
             return self.vault.keep(value)
         if channel.what == "paints":
-            return {"faces": self.vault.keep(np.asarray(value, dtype=np.float32))}
+            return painted(value, self.vault.keep)
         if len(value) == 1:
             return None if value[0] is None else {"lines": self.vault.keep(value[0])}
         key = tuple([None if part is None else reference(part) for part in value])

@@ -18,8 +18,8 @@ export const DRAWN = /** @type {const} */ (["mesh", "lines", "points", "label", 
  * @type {Readonly<Record<Drawn, readonly string[]>>} */
 export const WANTED = Object.freeze({
   mesh: ["color", "matrix", "points", "topology", "paints"],
-  lines: ["color", "matrix", "points", "topology"],
-  points: ["color", "matrix", "points"],
+  lines: ["color", "matrix", "points", "topology", "paints"],
+  points: ["color", "matrix", "points", "paints"],
   label: ["color", "matrix", "text", "height"],
   light: ["color", "matrix", "light_type", "intensity", "angle", "reach", "shadows"],
   camera: ["matrix", "fov", "near", "far", "target"],

@@ -20,6 +20,8 @@ export class Curve {
   #materials;
   #build = "";
   #content = "";
+  /** @type {{color: NodeState["color"], own: object|null, marked: boolean}|null} */
+  #tinted = null;
   /** @type {Float32Array} */
   #mixed = new Float32Array(0);
   /** @type {Float32Array} (N, 3), local */
@@ -46,7 +48,10 @@ export class Curve {
     if (p === null) return;
     const count = p.a.array.length / 3;
     const build = `${state.drawn}|${count}|${state.topology?.lines?.ref ?? ""}`;
-    if (build !== this.#build) this.#make(state, count);
+    if (build !== this.#build) {
+      this.#make(state, count);
+      this.#tinted = null;
+    }
     this.#build = build;
     const content = `${build}|${p.a.ref}|${p.b?.ref}|${p.mix}`;
     if (content !== this.#content) this.#fill(p);
@@ -120,14 +125,28 @@ export class Curve {
    * @param {NodeState} state
    * @param {boolean} marked
    */
-  #tint({ color }, marked) {
+  #tint({ color, paints }, marked) {
+    const own = paints?.points ?? null;
+    const last = this.#tinted;
+    if (last !== null && last.color === color && last.own === own && last.marked === marked) return;
+    this.#tinted = { color, own, marked };
     const { tint } = /** @type {Mesh} */ (this.#object).geometry.attributes;
-    const a = tint.array;
-    const paint = Float32Array.of(linear(color[0]), linear(color[1]), linear(color[2]), color[3] + (marked ? 2 : 0));
-    if (paint.every((c, k) => a[k] === c)) return;
-    for (let i = 0; i < a.length; i += 4) a.set(paint, i);
+    const paint = new Float32Array(4);
+    for (let i = 0; i < tint.count; i += 1) {
+      if (own === null) {
+        if (i === 0) write(paint, color, 0, 1, marked);
+      } else write(paint, own.array, 4 * (this.#strokes?.point(i) ?? i), color[3], marked);
+      tint.array.set(paint, 4 * i);
+    }
     tint.needsUpdate = true;
   }
+}
+
+/** A colour as light, with 2 added to the opacity of what is marked.
+ * @type {(out: Float32Array, color: ArrayLike<number>, from: number, opacity: number, marked: boolean) => void} */
+function write(out, color, from, opacity, marked) {
+  for (let k = 0; k < 3; k += 1) out[k] = linear(color[from + k]);
+  out[3] = color[from + 3] * opacity + (marked ? 2 : 0);
 }
 
 /** @type {(array: Float32Array, size: number) => BufferAttribute} */

@@ -30,6 +30,11 @@ export class Strokes {
     }
   }
 
+  /** Which point a corner lies at. @param {number} corner @returns {number} */
+  point(corner) {
+    return this.pairs[2 * (corner >> 2) + ((corner >> 1) & 1)];
+  }
+
   /**
    * Move the points.
    * @param {Float32Array} points (N, 3)
