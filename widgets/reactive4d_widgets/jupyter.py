@@ -1,16 +1,15 @@
 """Notebooks: a figure in a cell, as a widget: its time and its parameters are traits that others may be linked to.
 
-A cell gets two outputs: a poster, which is all that there is of the figure without a kernel, and the widget, which
-hides the poster when it lives. Of the model nothing is kept in the widget but a point; answers travel as messages.
+A cell gets two outputs: what a notebook keeps of the figure, which is all that there is of it without a kernel, and the
+widget, which hides that as long as it lives. Of the model nothing is kept in the widget but a point; answers travel as
+messages.
 """
 
-import base64
 import threading
 import uuid
 import weakref
 from collections import OrderedDict
 from collections.abc import Mapping
-from html import escape
 from importlib import import_module
 from typing import Any
 
@@ -21,16 +20,14 @@ from reactive4d.errors import Reactive4dError, hint
 from reactive4d.illustrations import Bookmark, Illustration, subject
 from reactive4d.illustrations.controls import listed
 from reactive4d.illustrations.settling import settle
-from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.figures import OPTIONS, checked_options
+from reactive4d_widgets.keepsakes import kept, limit_of, placeholder
 from reactive4d_widgets.live import Reader
 from reactive4d_widgets.loaders import LOADER, bundle
-from reactive4d_widgets.stills import poster
 
 __all__ = ["FigureWidget", "show"]
 
 MOST_VIEWS = 16
-SIZE = (960, 600)
 
 
 class FigureWidget(anywidget.AnyWidget):
@@ -41,6 +38,8 @@ class FigureWidget(anywidget.AnyWidget):
         times: None for its own, (start, stop), or evenly spaced times.
         title: for a person to read.
         options: how the figure is shown at first.
+        save: what a notebook keeps of it: None for what is quick to save, True for what moves, whatever it takes, False
+            for a picture only, or a number of bytes.
 
     Attributes:
         time: where the reader is, seconds; can be set, and linked.
@@ -76,13 +75,16 @@ class FigureWidget(anywidget.AnyWidget):
         times: Any = None,
         title: str | None = None,
         options: Mapping[str, Any] | None = None,
+        save: Any = None,
     ) -> None:
+        limit_of(save)  # what is none is told at once
         about = subject(thing)
         made: Any = about.thing
         self._thing: Any = weakref.ref(made)
         self._held: Any = made  # while it has views, or had none yet; cells that ran again leave nothing large behind
         self._settings: dict[str, Any] = {"times": times, "title": title}
         self._settings["options"] = checked_options(options, {control.name: control for control in about.controls})
+        self._save = save
         self._views: OrderedDict[str, Reader] = OrderedDict()
         self._guard = threading.RLock()
         self._is_settling = False
@@ -217,15 +219,22 @@ class FigureWidget(anywidget.AnyWidget):
         self.present()
 
     def present(self) -> None:
-        """Put it into the cell that runs: the poster, then the widget."""
+        """Put it into the cell that runs: what the notebook keeps of it, and the widget.
+
+        What is kept takes its place first and is made last, when the widget has begun to live.
+        """
         put: Any = import_module("IPython.display").display
         thing = self._thing()
+        name = self._poster
+        place: Any = None
         if thing is not None:
-            put(posted(thing, self._poster, title=self._settings["title"]), raw=True)
+            place = put(placeholder(name, subject(thing).title), raw=True, display_id=True)
         me: Any = super()
         found: Any = me._repr_mimebundle_()
         if found:
             put(found[0] if isinstance(found, tuple) else found, raw=True)
+        if place is not None:
+            place.update(kept(thing, save=self._save, **self._settings).outputs(name), raw=True)
 
 
 def _wire(value: Any) -> Any:
@@ -245,49 +254,12 @@ class _Watch:
             found()
 
 
-def posted(thing: Any, name: str, *, title: str | None = None) -> dict[str, Any]:
-    """A still of the figure where it opens, as an output of a cell; its text where none can be drawn.
-
-    Args:
-        thing: what is shown.
-        name: by which the widget finds the picture, to hide it.
-        title: for a person to read.
-    """
-    reader = Reader(thing)
-    try:
-        alt = _alt(reader) or title or reader.manifest()["title"]
-    finally:
-        reader.close()
-    plain = f"{title or subject(thing).title}: {alt}"
-    if not can_draw():
-        return {"text/plain": plain}
-    about = subject(thing)
-    try:
-        data = poster(about.thing, t=about.point.time, size=SIZE, parameters=about.values)
-    except Reactive4dError:
-        return {"text/plain": plain}
-    text = base64.b64encode(data).decode("ascii")
-    image = (
-        f'<img data-r4d-poster="{escape(name)}" alt="{escape(alt)}" width="{SIZE[0]}" style="max-width: 100%" '
-        f'src="data:image/png;base64,{text}">'
-    )
-    return {"text/plain": plain, "image/png": text, "text/html": image}
-
-
-def _alt(reader: Reader) -> str:
-    point = subject(reader.thing).point
-    ask = {"seq": 1, "revision": 1, "times": [point.time], "channels": ["#alt"]}
-    wires = {name: listed(wire) for name, wire in point.parameters.items()}
-    reply = reader.handle({"type": "ask", "id": 1, "parameters": wires, **ask}) or {}
-    return next((one["track"]["value"] for one in reply.get("segments", ()) if "track" in one), "")
-
-
 def show(thing: Any, /, **options: Any) -> FigureWidget:
     """Put a figure into the cell that runs.
 
     Args:
         thing: a Scene, an Illustration or its class.
-        **options: `times`, `title`, and how the figure is shown at first: theme, height, loop, grid …
+        **options: `times`, `title`, `save`, and how the figure is shown at first: theme, height, loop, grid …
 
     Returns:
         The widget: `widget.time` and `widget.params` can be set and linked.
@@ -296,15 +268,16 @@ def show(thing: Any, /, **options: Any) -> FigureWidget:
         UnknownNameError: an option that nobody knows.
     """
     looks = {name: options.pop(name) for name in OPTIONS if name in options}
-    strangers = set(options) - {"times", "title", "options"}
+    strangers = set(options) - {"times", "title", "save", "options"}
     if strangers:
         error = Reactive4dError(f"show: {', '.join(sorted(strangers))}: not in a notebook")
-        raise hint(error, "times, title, theme, height, loop, autoplay, grid …; bake writes a page")
+        raise hint(error, "times, title, save, theme, height, loop, autoplay, grid …; bake writes a page")
     made = FigureWidget(
         thing,
         times=options.get("times"),
         title=options.get("title"),
         options={**looks, **(options.get("options") or {})},
+        save=options.get("save"),
     )
     made.present()
     made._is_fresh = True  # pyright: ignore[reportPrivateUsage]

@@ -1,11 +1,14 @@
-"""Loaders: the few lines that every widget of a notebook carries; the viewer itself is fetched once per page."""
+"""Loaders: the few lines that every widget of a notebook carries; the viewer itself is fetched once per page.
+
+And the lines that bring to life what a notebook keeps of a figure, which carries the viewer along.
+"""
 
 import base64
 from functools import lru_cache
 
 from reactive4d_widgets.bundles import packed
 
-__all__ = ["LOADER", "bundle"]
+__all__ = ["KEEPER", "LOADER", "bundle"]
 
 # The viewer is asked of the kernel, by its hash, once for all widgets of a page: cells that run again bring none along.
 LOADER = """
@@ -66,6 +69,45 @@ async function render({ model, el }) {
 
 export default { render };
 """
+
+# In a notebook the widget comes first: what is kept waits until it is clear that there is no kernel to answer.
+KEEPER = """
+((name) => {
+  const KEY = Symbol.for("reactive4d.viewers");
+  const viewers = (globalThis[KEY] ??= new Map());
+  const place = document.querySelector(`[data-r4d-poster="${name}"]`);
+  const code = place?.querySelector("[data-r4d-bundle]");
+  const table = place?.querySelector("[data-r4d-table]");
+  if (!code || !table) return;
+  const hash = code.dataset.r4dBundle;
+
+  async function load() {
+    const bytes = Uint8Array.from(atob(code.textContent.trim()), (letter) => letter.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const text = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
+    const address = URL.createObjectURL(text);
+    try {
+      return await import(address);
+    } finally {
+      URL.revokeObjectURL(address);
+    }
+  }
+
+  async function begin() {
+    if (!viewers.has(hash)) {
+      viewers.set(hash, load().catch((error) => { viewers.delete(hash); throw error; }));
+    }
+    const { keepsake } = await viewers.get(hash);
+    keepsake({ place, data: JSON.parse(table.textContent) });
+  }
+
+  const seen = new IntersectionObserver((entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    seen.disconnect();
+    begin().catch((error) => console.error(error));
+  }, { rootMargin: "200px" });
+  setTimeout(() => seen.observe(place), document.getElementById("jupyter-config-data") ? 4000 : 0);
+})"""
 
 
 @lru_cache(maxsize=1)

@@ -29,5 +29,5 @@ export { LinkElement } from "./inline/link.js";
 export { NumberElement } from "./inline/number.js";
 export { WordElement } from "./inline/word.js";
 export { define, start } from "./adapters/page.js";
-export { widget } from "./adapters/anywidget.js";
+export { keepsake, widget } from "./adapters/anywidget.js";
 export { connect, serve } from "./adapters/trame.js";

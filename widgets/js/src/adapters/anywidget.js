@@ -4,6 +4,7 @@
  * The view asks the kernel for itself; what the widget keeps is small JSON, which other widgets may be linked to.
  */
 
+import { baked } from "../transports/baked.js";
 import { comm } from "../transports/comm.js";
 import { make } from "../ui/elements.js";
 import { pageStyles } from "../ui/page-styles.js";
@@ -22,7 +23,8 @@ import { define } from "./page.js";
  */
 
 /**
- * Show a widget.
+ * Show a widget. It is seen as soon as it has a picture; until then, and where there is no kernel, what the notebook
+ * keeps of the figure is seen, if there is something.
  * @param {{model: Model, el: HTMLElement}} view
  * @returns {() => void} what ends it
  */
@@ -30,6 +32,9 @@ export function widget({ model, el }) {
   define();
   el.dataset.lmSuppressShortcuts = "true"; // keys belong to the figure while it has the focus
   const { shadow, figure } = framed();
+  const hidden = make("style", {}, [`[data-r4d-poster="${model.get("_poster")}"] { display: none !important; }`]);
+  const seen = (/** @type {boolean} */ isSeen) => shadow.style.setProperty("display", isSeen ? "" : "none");
+  seen(false);
   el.append(shadow);
   const connect = () => comm(portOf(model), { onReopen: reopen });
   const reopen = () => {
@@ -38,15 +43,16 @@ export function widget({ model, el }) {
   };
   const { isSame, take } = synced(model, figure);
   const given = () => { if (figure.reader && !isSame()) take(); };
-  const poster = (/** @type {boolean} */ isShown) => {
-    const image = posterOf(el, model.get("_poster"));
-    image?.style.setProperty("display", isShown ? "" : "none"); // a notebook's own styles know nothing of `hidden`
-  };
   figure.addEventListener("r4d-live", () => {
     if (!isSame()) take();
     figure.reader?.on("point", () => give(model, figure));
   });
-  figure.addEventListener("r4d-commit", () => poster(false));
+  figure.addEventListener("r4d-commit", () => {
+    if (hidden.isConnected) return;
+    el.append(hidden);
+    seen(true);
+  });
+  figure.addEventListener("r4d-failed", () => seen(hidden.isConnected || !isKept(el, model.get("_poster"))));
   model.on("change:time", given);
   model.on("change:params", given);
   figure.transport = connect();
@@ -56,8 +62,21 @@ export function widget({ model, el }) {
     const transport = figure.transport;
     figure.remove();
     transport?.close();
-    poster(true);
+    hidden.remove();
   };
+}
+
+/**
+ * Bring to life what a notebook keeps of a figure: its picture stays until the first one is drawn.
+ * @param {{place: HTMLElement, data: import("../core/types.js").PageData}} kept
+ */
+export function keepsake({ place, data }) {
+  define();
+  const { shadow, figure } = framed();
+  const image = place.querySelector("img");
+  place.insertBefore(shadow, image);
+  if (image) figure.append(image);
+  figure.transport = baked(data);
 }
 
 /** A figure, in a root of its own so that a notebook's styles stay outside. */
@@ -116,10 +135,8 @@ function sorted(value) {
   return Object.entries(value ?? {}).sort(([a], [b]) => (a < b ? -1 : 1));
 }
 
-/** The picture that stands for the figure until it lives. @param {HTMLElement} el @param {string} name
- * @returns {HTMLElement | null} */
-function posterOf(el, name) {
-  if (!name) return null;
-  const images = /** @type {NodeListOf<HTMLElement>} */ (el.ownerDocument.querySelectorAll("img[data-r4d-poster]"));
-  return [...images].find((image) => image.dataset.r4dPoster === name) ?? null;
+/** Whether a picture stands for the figure. @param {HTMLElement} el @param {string} name */
+function isKept(el, name) {
+  const places = /** @type {NodeListOf<HTMLElement>} */ (el.ownerDocument.querySelectorAll("[data-r4d-poster]"));
+  return [...places].some((place) => place.dataset.r4dPoster === name && place.childElementCount > 0);
 }

@@ -37,10 +37,11 @@ export function comm(port, { onReopen = () => undefined, patience = PATIENCE } =
   const asked = new Map();
   let ids = 0;
   let isClosed = false;
+  let off = () => {};
   /** @type {(stale: Stale) => void} */
   let listener = () => undefined;
 
-  const off = port.listen((message, buffers) => {
+  const heard = (/** @type {any} */ message, /** @type {readonly any[]} */ buffers) => {
     if (isClosed || message?.view !== name) return;
     if (message.type === "stale") listener(message);
     else if (message.type === "reopen") onReopen();
@@ -54,7 +55,12 @@ export function comm(port, { onReopen = () => undefined, patience = PATIENCE } =
     } catch (error) {
       question.reject(error instanceof Error ? error : new Error(String(error)));
     }
-  });
+  };
+  const begin = () => {
+    off();
+    isClosed = false;
+    off = port.listen(heard);
+  };
 
   /** @param {Record<string, any>} message @returns {Promise<any>} */
   const ask = (message) => new Promise((resolve, reject) => {
@@ -72,7 +78,11 @@ export function comm(port, { onReopen = () => undefined, patience = PATIENCE } =
   });
 
   return {
-    open: async () => (await ask({ type: "open" })).manifest,
+    // A notebook may take a figure out of its page and put it in again: then it opens anew.
+    open: async () => {
+      begin();
+      return (await ask({ type: "open" })).manifest;
+    },
     ask: (wish) => ask({ ...wish, type: "ask" }),
     onStale: (f) => { listener = f; },
     dropped: (refs) => { if (!isClosed) port.send({ type: "dropped", view: name, refs }); },
@@ -82,6 +92,7 @@ export function comm(port, { onReopen = () => undefined, patience = PATIENCE } =
       port.send({ type: "close", view: name });
       isClosed = true;
       off();
+      off = () => {};
       for (const { reject, timer } of asked.values()) {
         clearTimeout(timer);
         reject(new Error("closed"));

@@ -65,3 +65,25 @@ test("other nodes are another figure", async () => {
   await pause(10);
   assert.equal(count, 1);
 });
+
+test("a transport that was closed opens anew", async () => {
+  // A notebook takes figures out of its page and puts them in again.
+  let listeners = 0;
+  const port = kernel(data());
+  const transport = comm({
+    send: (message) => port.send(message),
+    listen: (listener) => {
+      const off = port.listen(listener);
+      listeners++;
+      return () => { listeners--; off(); };
+    },
+  });
+  for (let k = 0; k < 3; k++) {
+    await transport.open();
+    assert.equal(listeners, 1);
+    transport.close();
+    assert.equal(listeners, 0);
+    await assert.rejects(transport.need([]), /closed/);
+  }
+  assert.deepEqual(port.sent.map(({ type }) => type), Array(3).fill(["open", "close"]).flat());
+});
