@@ -1,9 +1,9 @@
-r"""Prose: Markdown with numbers, links, words and figures in it, made HTML.
+r"""Prose: Markdown with numbers, links, words, figures and formulas in it, made HTML.
 
 `{length:.2f}` is a number, `[text](#length=2&t=1)` a link to a point, `[the bob](#bob)` a word that highlights an
-object, `![caption](pendulum)` a figure. Each belongs to the figure that it names, `{pendulum.length}`, else to the last
-one before it that knows the name, else to the first one that does. Braces that mean nothing of the kind are written
-`\{`. HTML in the text is text.
+object, `![caption](pendulum)` a figure, `$x^2$` a formula. Each name belongs to the figure that it names,
+`{pendulum.length}`, else to the last one before it that knows the name, else to the first one that does. Braces that
+mean nothing of the kind are written `\{`. HTML in the text is text.
 """
 
 import re
@@ -13,14 +13,13 @@ from html import escape
 from typing import Any
 from urllib.parse import unquote
 
-from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from reactive4d.errors import Reactive4dError, ShapeError, UnknownNameError, hint, unknown
+from reactive4d_widgets.marks import made, marks, plain
 
 __all__ = ["Cast", "Written", "written"]
 
-_NUMBER = re.compile(r"\{\s*([^\W\d][\w-]*(?:\.[^\W\d]\w*)?)\s*(?::([^{}\n]*))?\}")
 _FOLLOW = re.compile(r"follow\s+([^\W\d][\w-]*)")
 
 
@@ -71,7 +70,7 @@ def written(text: str, casts: Iterable[Cast]) -> Written:
 
     Raises:
         UnknownNameError: it names what no figure knows.
-        ShapeError: a figure stands in the middle of a sentence, or stands twice.
+        ShapeError: a figure stands in the middle of a sentence, or stands twice; a formula is none.
 
     >>> print(written("# A ball\n\n2 < 3 & \\{x}", []).html)
     <h1 id="a-ball">A ball</h1>
@@ -90,11 +89,7 @@ class _Composer:
         self.follows: dict[str, str] = {}
         self.links: list[tuple[str, str]] = []
         self.slugs: set[str] = set()  # names of headings
-        self.markdown = MarkdownIt("commonmark", {"html": False, "typographer": True})
-        self.markdown.enable(["table", "strikethrough", "replacements", "smartquotes"])
-        self.markdown.inline.ruler.after("escape", "number", _number)
-        for name in ("number", "figure", "opening", "closing"):
-            self.markdown.add_render_rule(name, _shown)
+        self.markdown = marks()
 
     def compose(self, text: str) -> Written:
         env: dict[str, Any] = {}
@@ -103,7 +98,7 @@ class _Composer:
         for i, token in enumerate(tokens):
             if token.type == "heading_open":
                 content = tokens[i + 1]
-                title = _plain(content.children or [])
+                title = plain(content.children or [])
                 token.attrSet("id", self._slug(title))
                 if token.tag == "h1" and made.title is None:
                     made.title = title
@@ -169,16 +164,16 @@ class _Composer:
         if follow is not None:
             self.follows[name] = follow[1]
         caption = self.markdown.renderer.render(self._inline(image.children or []), self.markdown.options, env)
-        return _token("figure", self.casts[name].block(caption) + "\n")
+        return made("figure", self.casts[name].block(caption) + "\n")
 
     # -- what stands in a sentence ---------------------------------------------------------------------------------
 
     def _inline(self, tokens: Sequence[Token]) -> list[Token]:
-        made: list[Token] = []
+        parts: list[Token] = []
         closing: list[Token | None] = []
         for token in tokens:
             if token.type == "number":
-                made.append(_token("number", self._number(token)))
+                parts.append(made("number", self._number(token)))
             elif token.type == "image" and self._is_figure(token):
                 error = ShapeError(f"the figure {token.attrGet('src')!r} stands in the middle of a sentence")
                 raise hint(error, "give it a paragraph of its own")
@@ -186,13 +181,13 @@ class _Composer:
                 pair = self._link(str(token.attrGet("href") or ""))
                 if pair is None and not str(token.attrGet("href") or "").startswith("#"):
                     token.attrSet("rel", "noopener noreferrer")
-                made.append(token if pair is None else _token("opening", pair[0]))
-                closing.append(None if pair is None else _token("closing", pair[1]))
+                parts.append(token if pair is None else made("opening", pair[0]))
+                closing.append(None if pair is None else made("closing", pair[1]))
             elif token.type == "link_close":
-                made.append(closing.pop() or token)
+                parts.append(closing.pop() or token)
             else:
-                made.append(token)
-        return made
+                parts.append(token)
+        return parts
 
     def _number(self, token: Token) -> str:
         name, spec = token.meta["name"], token.meta["spec"]
@@ -266,32 +261,3 @@ class _Composer:
         """The last figure before here that fits, else the first of all that does."""
         names = [*reversed(self.order), *self.casts]
         return next((self.casts[name] for name in names if fits(self.casts[name])), None)
-
-
-def _number(state: Any, silent: bool) -> bool:
-    """The rule of Markdown for a number in braces."""
-    if state.src[state.pos] != "{":
-        return False
-    found = _NUMBER.match(state.src, state.pos)
-    if found is None:
-        return False
-    if not silent:
-        token = state.push("number", "", 0)
-        token.meta = {"name": found[1], "spec": (found[2] or "").strip()}
-        token.content = found[0]
-    state.pos = found.end()
-    return True
-
-
-def _shown(self: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """What was made HTML already."""
-    return tokens[i].content
-
-
-def _token(kind: str, html: str) -> Token:
-    return Token(kind, "", 0, content=html, block=kind == "figure")
-
-
-def _plain(tokens: Sequence[Token]) -> str:
-    """The text of a heading, without marks."""
-    return "".join(_plain(token.children) if token.children else token.content for token in tokens).strip()
