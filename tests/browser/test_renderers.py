@@ -12,10 +12,10 @@ from readers import Read
 from scipy import ndimage
 
 from reactive4d.signals.colors import srgb_to_oklab
-from reactive4d_widgets.compositions import composed
 from reactive4d_widgets.displays import can_draw
-from reactive4d_widgets.pictures import picture
+from reactive4d_widgets.stage import Stage
 from reactive4d_widgets.stills import poster, seen
+from reactive4d_widgets.themes import Theme
 from reactive4d_widgets.views import View
 
 PageOf = Callable[[str], Program]
@@ -26,8 +26,9 @@ def numbered(frame: Any, view: View, size: tuple[int, int]) -> tuple[list[str], 
     """The names of what has a surface, and (H, W), whose is seen at each pixel, from 1; 0 where there is none."""
     names = [name for name, node in frame.items() if node.primitive == "mesh"]
     colors = {name: ((i + 1) / 255.0, 0.0, 0.0, 1.0) for i, name in enumerate(names)}
-    found = picture(composed(frame, colors=colors), view, size=size, shader=None)
-    return names, np.where(found.colors[..., 3] == 1.0, np.rint(255 * found.colors[..., 0]), 0)
+    hidden = {name: (0.0, 0.0, 0.0, 0.0) for name, node in frame.items() if node.primitive in ("lines", "points")}
+    with Stage(size=size, theme=Theme(paper=(0.0, 0.0, 0.0), rim=(0.0, 0.0), shade=0.0), plain=True) as stage:
+        return names, stage.drawn(frame, view, bounds=np.zeros((2, 3)), colors={**hidden, **colors})[..., 0]
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,14 +10,51 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from reactive4d.geometry.transforms import inverse
-from reactive4d_widgets.compositions import Label
+from reactive4d.model.nodes import Node
 from reactive4d_widgets.views import View
 
-__all__ = ["captioned", "places"]
+__all__ = ["Label", "captioned", "label_of", "places"]
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 SEEN = 1.25  # a line of text is so many times as high as its letters' size
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """Text that faces the reader.
+
+    Attributes:
+        text: one line or several.
+        position: (3,), the middle of the text, metres, world space.
+        height: of a line, pixels.
+        color: (4,), sRGB and alpha from 0 to 1.
+        turn: degrees by which it is turned on the screen, counter-clockwise.
+    """
+
+    text: str
+    position: Array
+    height: float
+    color: Array
+    turn: float
+
+
+def label_of(node: Node) -> Label:
+    """The text of a node whose `primitive` is "label".
+
+    >>> import reactive4d as r4
+    >>> label_of(r4.Scene(a=r4.Label("A", at=(0, 0, 1))).at(0.0)["a"]).text
+    'A'
+    """
+    settings: Any = node.drawn
+    matrix = node.matrix
+    return Label(
+        text=str(settings["text"]),
+        position=matrix[:3, 3],
+        height=float(settings["height"]),
+        color=np.asarray(node.color, np.float64),
+        turn=float(np.degrees(np.arctan2(matrix[1, 0], matrix[0, 0]))),
+    )
 
 
 def places(points: Array, view: View, size: tuple[int, int]) -> Array:

@@ -1,8 +1,6 @@
 """Stills: pictures of a scene at one instant, for print, for posters, and for whoever has no browser."""
 
 import io
-import itertools
-import math
 import operator
 import os
 from collections.abc import Mapping
@@ -10,21 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from reactive4d.errors import ShapeError, UnknownNameError, hint, unknown
+from reactive4d.errors import ShapeError, UnknownNameError, hint
 from reactive4d.geometry.files import put
-from reactive4d.geometry.transforms import look_at
-from reactive4d.illustrations import subject as subject_of
-from reactive4d.model.frames import Frame
 from reactive4d.signals.colors import color as color_of
-from reactive4d_widgets.compositions import composed
-from reactive4d_widgets.lamps import light_of
+from reactive4d_widgets.shots import seen
 from reactive4d_widgets.themes import THEMES, Theme
-from reactive4d_widgets.views import View, camera_of, camera_view, holding, instants, outermost
 
-__all__ = ["poster", "render", "seen"]
+__all__ = ["poster", "render", "seen", "sized", "theme_of"]
 
 SIZE = (1280, 960)
 LARGEST = 8192  # pixels; beyond it cards have no textures
@@ -105,108 +95,28 @@ def poster(
     """
     from PIL import Image
 
-    from reactive4d_widgets.captions import captioned
-    from reactive4d_widgets.exposures import exposed
+    from reactive4d_widgets.stage import Stage
 
-    width, height = _size(size)
-    theme = _theme(background)
+    width, height = sized(size)
+    theme = theme_of(background)
     given = {**(parameters or {}), **values}
     frame, view, box = seen(subject, t, aspect=width / height, camera=camera, parameters=given, bounds=bounds)
-    composition = composed(frame)
-    ratio = max(1.0, height / 600.0)
-    pixels = exposed(
-        composition,
-        view,
-        light=light_of(frame.values(), view),
-        bounds=box,
-        size=(width, height),
-        ratio=ratio,
-        finer=2 if max(width, height) * 2 <= LARGEST else 1,
-        theme=theme,
-        edges=edges,
-        shadows=shadows,
-    )
-    image: Any = Image.fromarray(pixels)
-    image = captioned(image, composition.labels, view, ratio=ratio, paper=theme.paper)
+    with Stage(size=(width, height), theme=theme, edges=edges, shadows=shadows) as stage:
+        image: Any = Image.fromarray(stage.drawn(frame, view, bounds=box))
     file = io.BytesIO()
     image.save(file, "PNG", optimize=True)
     return file.getvalue()
 
 
-def seen(
-    subject: Any,
-    t: float,
-    *,
-    aspect: float,
-    camera: Any = None,
-    parameters: Mapping[str, Any] | None = None,
-    bounds: Any = None,
-) -> tuple[Frame, View, NDArray[np.float64]]:
-    """What is seen of a subject at a time, from where, and (2, 3) the box of all over its times; as for `render`.
+def sized(size: Any) -> tuple[int, int]:
+    """The width and the height of a picture that somebody asked for.
 
-    >>> import reactive4d as r4
-    >>> frame, view, bounds = seen(r4.Scene(ball=r4.Sphere()), 0.0, aspect=4 / 3)
-    >>> list(frame), view.fov, bounds.round(2).tolist()
-    (['ball'], 30.0, [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
+    Raises:
+        ShapeError: these are none.
+
+    >>> sized((640, 480))
+    (640, 480)
     """
-    given = subject_of(subject)
-    if parameters:
-        given = given.moved({name: given.control(name).encode(value) for name, value in parameters.items()})
-    frame = given.scene.at(t, **given.values)
-    if bounds is None:
-        points = outermost(given.scene.at(other, **given.values) for other in instants(*given.times))
-        points = np.concatenate([points, outermost([frame])])
-    else:
-        points = np.array(list(itertools.product(*np.asarray(bounds, dtype=np.float64).T)))
-    box = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
-    if camera is None and given.point.camera is not None:
-        camera = dict(zip(("position", "target"), given.point.camera, strict=True))
-    if camera is None:
-        view = camera_of(frame) or holding(points, aspect=aspect)
-    elif isinstance(camera, str):
-        view = _named(camera, frame)
-    else:
-        view = camera if isinstance(camera, View) else _view(camera)
-    return frame, view, box
-
-
-def _named(camera: str, frame: Frame) -> View:
-    names = [name for name, node in frame.items() if node.primitive == "camera"]
-    if camera not in names:
-        raise unknown(camera, names, what="camera")
-    return camera_view(frame[camera])
-
-
-def _view(camera: Any) -> View:
-    """A place that somebody gave."""
-    example = 'camera={"position": (5, -5, 3), "target": (0, 0, 0)}'
-    try:
-        given: dict[str, Any] = dict(camera)
-    except (TypeError, ValueError):
-        given = {}
-    if not {"position", "target"} <= given.keys() <= set(View.__slots__):
-        raise hint(ShapeError(f"camera: expected a name or a place, got {camera!r}"), example)
-    for name in ("position", "target", "up"):
-        if name in given:
-            given[name] = _three(given[name], name, example)
-    view = View(**given)
-    if not 0.0 < view.fov < 180.0:
-        raise hint(ShapeError(f"camera: fov: {view.fov!r} is no angle of view"), "between 0 and 180 degrees")
-    look_at(view.position, view.target, view.up)  # refuses what has no direction
-    return view
-
-
-def _three(value: Any, name: str, example: str) -> tuple[float, float, float]:
-    try:
-        x, y, z = [float(number) for number in value]
-    except (TypeError, ValueError):
-        x = y = z = math.nan
-    if not all(map(math.isfinite, (x, y, z))):
-        raise hint(ShapeError(f"camera: {name}: expected three numbers, got {value!r}"), example)
-    return x, y, z
-
-
-def _size(size: Any) -> tuple[int, int]:
     try:
         width, height = [operator.index(number) for number in size]
     except (TypeError, ValueError):
@@ -216,7 +126,12 @@ def _size(size: Any) -> tuple[int, int]:
     return width, height
 
 
-def _theme(background: str) -> Theme:
+def theme_of(background: str) -> Theme:
+    """The surroundings called "light" or "dark", or those that fit a colour.
+
+    >>> theme_of("teal").paper
+    (0.0, 0.5019607843137255, 0.5019607843137255)
+    """
     found = THEMES.get(background)
     if found is not None:
         return found

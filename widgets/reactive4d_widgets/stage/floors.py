@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d_widgets.shadows import Eye, rays
-from reactive4d_widgets.views import View
+from reactive4d_widgets.stage.shades import Eye
 
-__all__ = ["SIZE", "Floor", "floor_of", "floor_shade"]
+__all__ = ["SIZE", "Floor", "floor_dark", "floor_of"]
 
 Array = NDArray[np.float64]
 SIZE = 256  # pixels of what is seen from below
@@ -59,21 +58,16 @@ def floor_of(low: Array, high: Array) -> Floor | None:
     return Floor(center, 0.5 * MARGIN * size, reach)
 
 
-def floor_shade(floor: Floor, depths: Array, view: View, size: tuple[int, int]) -> Array:
-    """(H, W), how dark the floor is at each pixel, from 0 to 1; 0 where it is not seen, and from below.
+def floor_dark(floor: Floor, depths: Array) -> Array:
+    """(S, S), how dark the floor is, from 0 to 1; the first row is the lowest y.
 
     Args:
         floor: whose eye took the picture of distances.
         depths: (S, S), metres ahead of that eye, NaN where there is nothing.
-        view: from where it is looked at.
-        size: width and height of the picture, pixels.
     """
     from scipy import ndimage  # pyright: ignore[reportMissingTypeStubs]
 
     filters: Any = ndimage
-    position = np.asarray(view.position)
-    if position[2] <= floor.center[2]:
-        return np.zeros((size[1], size[0]))
     heights = np.where(np.isnan(depths), np.inf, depths - floor.depth)
     layers: list[Any] = []
     for reach, blur in zip(floor.reach, (WIDE, NARROW), strict=True):
@@ -84,14 +78,4 @@ def floor_shade(floor: Floor, depths: Array, view: View, size: tuple[int, int]) 
         for axis in (0, 1):
             layer = filters.correlate1d(layer, weights / weights.sum(), axis=axis, mode="constant")
         layers.append(layer)
-    dark = np.clip(0.55 * layers[0] + 0.5 * layers[1], 0.0, 1.0)
-    ways = rays(view, size)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        far = (floor.center[2] - position[2]) / ways[..., 2]
-    hit = position + np.where(far > 0.0, far, np.nan)[..., None] * ways
-    # The picture from below has +y downwards: its first row is the lowest y.
-    column = ((hit[..., 0] - floor.center[0]) / floor.half + 1.0) * SIZE / 2.0 - 0.5
-    row = ((hit[..., 1] - floor.center[1]) / floor.half + 1.0) * SIZE / 2.0 - 0.5
-    places = np.nan_to_num(np.stack([row, column]), nan=-9.0, posinf=-9.0, neginf=-9.0)
-    found: Any = filters.map_coordinates(dark, places, order=1, mode="constant")
-    return found
+    return np.clip(0.55 * layers[0] + 0.5 * layers[1], 0.0, 1.0)
