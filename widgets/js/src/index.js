@@ -25,9 +25,11 @@ export { View } from "./render/views.js";
 
 // the figure, what drives it from the prose, and a page that holds them
 export { FigureElement } from "./ui/figure-element.js";
+export { CheckElement } from "./inline/check.js";
 export { LinkElement } from "./inline/link.js";
 export { NumberElement } from "./inline/number.js";
 export { WordElement } from "./inline/word.js";
 export { define, start } from "./adapters/page.js";
 export { keepsake, widget } from "./adapters/anywidget.js";
 export { connect, serve } from "./adapters/trame.js";
+export { either, site } from "./adapters/site.js";

@@ -3168,6 +3168,10 @@ body {
 .r4d-page table { border-collapse: collapse; margin: 1.4em 0; font-size: 0.93em; font-variant-numeric: tabular-nums; }
 .r4d-page th, .r4d-page td { text-align: left; padding: 0.3em 1em 0.3em 0; border-bottom: 1px solid var(--line); }
 .r4d-page th { font-weight: 500; font-style: italic; border-bottom-color: var(--soft); }
+.r4d-page math { font-family: "STIX Two Math", "Libertinus Math", "Cambria Math", "Latin Modern Math",
+  "DejaVu Math TeX Gyre", math; }
+.r4d-formula { display: block; margin: 1em 0; padding-block: 0.2em; overflow-x: auto; overflow-y: hidden; }
+.r4d-formula math { font-size: 1.08em; }
 .r4d-page img { max-width: 100%; height: auto; }
 .r4d-page :focus-visible { outline: 2px solid var(--accent); outline-offset: 3px; border-radius: 2px; }
 .r4d-page sup, .r4d-page sub { line-height: 0; }

@@ -18,6 +18,11 @@ export const inlineStyles = `
 .value { font-variant-numeric: lining-nums tabular-nums; white-space: nowrap; }
 .word { text-decoration-style: dotted; text-decoration-thickness: 2px; color: inherit;
   text-decoration-color: var(--r4d-inline); }
+.check { display: inline-flex; align-items: center; gap: 0.5em; color: var(--soft, GrayText); }
+.check .mark { width: 0.7em; height: 0.7em; border: 2px solid currentcolor; border-radius: 50%; }
+.check[data-done] { color: var(--ink, CanvasText); }
+.check .mark { box-sizing: border-box; }
+.check[data-done] .mark { background: var(--r4d-inline); border-color: var(--r4d-inline); }
 a { color: var(--r4d-inline); text-decoration-thickness: 1px; text-underline-offset: 0.18em; }
 input.typing {
   font: inherit; font-variant-numeric: lining-nums tabular-nums; color: inherit; background: var(--raised, Field);
