@@ -69,7 +69,7 @@ def served(program: str, folder: Path, cells: list[str]) -> Iterator[str]:
         "--allow-root",
     ]
     server = subprocess.Popen(
-        [sys.executable, "-m", program, *options, "--IdentityProvider.token="],
+        [sys.executable, "-m", program, *options],
         cwd=folder / "work",
         env=environment(folder),
         stdout=subprocess.DEVNULL,
@@ -82,6 +82,7 @@ def served(program: str, folder: Path, cells: list[str]) -> Iterator[str]:
                 with urlopen(f"{address}/api", timeout=2):
                     break
             except OSError:
+                assert server.poll() is None, f"{program} does not start"
                 time.sleep(0.25)
         yield address
     finally:
