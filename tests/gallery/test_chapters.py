@@ -1,0 +1,25 @@
+"""The chapters of the book: their programs run, and print what stands below them."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "book").glob("[0-9]*.md"))
+BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("page", CHAPTERS, ids=lambda page: page.stem)
+def test_the_programs_of_a_chapter_run_and_print_what_it_says(page: Path):
+    """One after the other, each with the names that those before it left."""
+    names: dict[str, Any] = {"__name__": "chapter"}
+    blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
+    assert blocks
+    for program, expected in blocks:
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            exec(compile(program, str(page), "exec"), names)
+        assert said.getvalue().rstrip() == expected.rstrip()

@@ -1,0 +1,92 @@
+"""The figures of the book: each builds, bakes without surprises, and shows what its chapter says."""
+
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import reactive4d as r4
+import reactive4d_apps.gallery
+from reactive4d.illustrations import subject
+from reactive4d_apps.gallery import signals
+from reactive4d_apps.sphinx.wordings import named, times_of
+
+CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "book").glob("[0-9]*.md"))
+FIGURE = re.compile(r"^`{3,}\{illustration\} reactive4d_apps\.gallery\.(\w+):(\w+)\n((?::.*\n)*)", re.MULTILINE)
+OPTION = re.compile(r"^:(\w+): *(.*)$", re.MULTILINE)
+MODULES = [
+    importlib.import_module(f"reactive4d_apps.gallery.{module.name}")
+    for module in pkgutil.iter_modules(reactive4d_apps.gallery.__path__)
+]
+CLASSES = [
+    one for module in MODULES for name in module.__all__ if issubclass(one := getattr(module, name), r4.Illustration)
+]
+
+
+def figures() -> dict[str, tuple[type[r4.Illustration], dict[str, str]]]:
+    """What the chapters show of the gallery: by name the class and the options of the directive; each class once."""
+    found: dict[str, tuple[type[r4.Illustration], dict[str, str]]] = {}
+    for page in CHAPTERS:
+        for module, name, options in FIGURE.findall(page.read_text(encoding="utf-8")):
+            cls = getattr(importlib.import_module(f"reactive4d_apps.gallery.{module}"), name)
+            found.setdefault(name, (cls, dict(OPTION.findall(options))))
+    return found
+
+
+FIGURES = figures()
+
+
+def test_every_figure_of_the_gallery_stands_in_a_chapter():
+    """What nobody sees is not kept."""
+    assert {cls.__name__ for cls in CLASSES} == set(FIGURES)
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
+def test_a_figure_can_be_asked_at_any_time(cls: type[r4.Illustration]):
+    """At its beginning, in the middle, and before both."""
+    reader: Any = cls()
+    start, stop = subject(reader).times
+    for t in (start, (start + stop) / 2, start - 1):
+        frame = reader.at(t)
+        assert frame
+        for node in frame.values():
+            assert np.isfinite(node.matrix).all()
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_figure_bakes_as_its_chapter_says(name: str, tmp_path: Path):
+    """No error in it, no parameter that a reader cannot move, and not much to carry: the viewer's 270 KB are in it."""
+    cls, options = FIGURES[name]
+    given = named(options.get("parameters", ""), what="parameters")
+    times = times_of(options["times"]) if "times" in options else None
+    report = cls().bake(tmp_path / "figure.html", times=times, **given)
+    assert report.problems == ()
+    assert report.notes == ()
+    assert report.size < 700_000
+
+
+def test_the_bar_is_as_long_as_the_answer_holds():
+    """While the lift waits the bar spans the wait; while it moves it is a sliver at the present."""
+    lift = signals.Lift()
+    begins, ends = (lift.scene.signals[name] for name in ("begins", "ends"))
+    assert [(begins.at(t), ends.at(t)) for t in (1.0, 3.0, 5.0, 9.5)] == [(0, 2), (3, 3), (4, 7), (9, 10)]
+    assert np.ptp(lift.scene["bar"].bounds.at(5.0)[:, 0]) == pytest.approx(3.06)
+
+
+def test_an_edit_of_a_key_makes_two_spans_stale_and_its_undoing_none():
+    """The tiles on both sides of the key turn orange, and blue again."""
+
+    def told(**values: float) -> str:
+        frame = signals.Stale(**values).at(3.0)
+        return " ".join(str(frame[f"says{i}"].drawn["text"]) for i in range(4))
+
+    assert told() == "holds holds holds holds"
+    assert told(middle=1.5) == "holds stale stale holds"
+    assert told(left=0.0) == "stale stale holds holds"
+    assert told(middle=2.5) == "holds holds holds holds"
+    solved = signals.Stale().scene.signals["solved"]
+    assert [bool(solved.at(0.0, left=1.5, middle=x)) for x in (2.0, 2.5)] == [False, True]
