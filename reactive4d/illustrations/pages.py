@@ -12,6 +12,7 @@ from reactive4d.illustrations.subjects import subject
 
 __all__ = ["Figure", "Page"]
 
+LONGEST = 100  # letters of a name
 _NAME = re.compile(r"[^\W\d][\w-]*")
 
 
@@ -26,7 +27,7 @@ class Figure:
         **options: values of parameters, and how it is shown at first, as for `bake`.
 
     Raises:
-        ShapeError: nothing that can be shown.
+        ShapeError: nothing that can be shown, or a title or a leader that is no text.
 
     >>> import reactive4d as r4
     >>> Figure(r4.Scene(ball=r4.Sphere()), times=(0, 2))
@@ -37,6 +38,9 @@ class Figure:
         self, thing: Any, /, *, times: Any = None, follow: str | None = None, title: str | None = None, **options: Any
     ) -> None:
         subject(thing)
+        for key, value in {"follow": follow, "title": title}.items():
+            if value is not None and not isinstance(value, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+                raise ShapeError(f"Figure: {key}: expected a text, got {value!r}")
         self.thing = thing
         self.times = times
         self.follow = follow
@@ -70,8 +74,9 @@ class Page:
         if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance]
             raise hint(ShapeError(f"Page: expected a text, got {text!r}"), 'Page("…", pendulum=Pendulum())')
         for name in figures:
-            if not _NAME.fullmatch(name):
-                raise hint(ShapeError(f"{name!r} is not a name for a figure"), "letters, digits, _ and -")
+            if not _NAME.fullmatch(name) or len(name) > LONGEST:
+                error = ShapeError(f"{name[:80]!r} is not a name for a figure")
+                raise hint(error, f"letters, digits, _ and -; at most {LONGEST} of them")
         self.text = text
         self.figures: Mapping[str, Figure] = MappingProxyType(
             {name: figure if isinstance(figure, Figure) else Figure(figure) for name, figure in figures.items()}

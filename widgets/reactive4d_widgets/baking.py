@@ -4,7 +4,7 @@ Everything that the page can show is asked beforehand, each cell once, and writt
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from reactive4d_widgets.notes import notes
 from reactive4d_widgets.pages import document, refuse_wrong_words
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.progress import Bar, bar
+from reactive4d_widgets.proofs import proofread
 from reactive4d_widgets.tables import Problem, tabulated
 
 __all__ = ["LIMIT", "Report", "bake"]
@@ -130,8 +131,11 @@ def bake(
     figures = {subject_of(subject).name: Figure(subject)} if page is None else dict(page.figures)
     given = {**values, **(parameters or {})}
     _refuse_strangers(figures, given)
+    orders = {name: _order(name, figure, given, times, options) for name, figure in figures.items()}
+    plans = {name: order.plan for name, order in orders.items()}
+    proofread(prose, plans, {name: figure.follow for name, figure in figures.items()})
     with bar(shown=progress, title=target.name) as told:
-        shown = _Kitchen(given, times, options, limit, told).cook(figures)
+        shown = _Kitchen(limit, told).cook(orders.values())
     return _served(shown, prose, target, title=title, limit=limit, lang=lang, theme=theme)
 
 
@@ -165,48 +169,66 @@ def _refuse_strangers(figures: Mapping[str, Figure], given: Mapping[str, Any]) -
             raise unknown(name, known, what="parameter")
 
 
+@dataclass(frozen=True, slots=True)
+class _Order:
+    """A figure of a page, and what is to be asked for it.
+
+    Attributes:
+        name: how it is called on the page.
+        figure: what it shows.
+        plan: what is to be asked.
+        options: how it is shown at first.
+    """
+
+    name: str
+    figure: Figure
+    plan: Plan
+    options: Mapping[str, Any]
+
+
+def _order(
+    name: str, figure: Figure, given: Mapping[str, Any], times: Any, options: Mapping[str, Any] | None
+) -> _Order:
+    own = dict(figure.options)
+    looks: dict[str, Any] = {**(options or {}), **(own.pop("options", None) or {})}
+    plan = planned(
+        figure.thing,
+        times=times if figure.times is None else figure.times,
+        parameters=lambda known: {**{n: v for n, v in given.items() if n in known}, **own},
+    )
+    return _Order(name, figure, plan, checked_options(looks, plan.controls))
+
+
 class _Kitchen:
     """Makes the tables of figures, one after the other."""
 
-    def __init__(
-        self, given: Mapping[str, Any], times: Any, options: Mapping[str, Any] | None, limit: float, told: Bar
-    ) -> None:
-        self.given = given
-        self.times = times
-        self.options = options
+    def __init__(self, limit: float, told: Bar) -> None:
         self.limit = limit
         self.told = told
         self.spent = 0  # bytes
 
-    def cook(self, figures: Mapping[str, Figure]) -> list[Shown]:
+    def cook(self, orders: Collection[_Order]) -> list[Shown]:
         """The figures with their tables; those that can share one do."""
-        self.spent = len(packed()[0]) + POSTER * len(figures)
+        self.spent = len(packed()[0]) + POSTER * len(orders)
         done: list[Shown] = []
-        for name, figure in figures.items():
-            shown = self._figure(name, figure, done)
+        for order in orders:
+            shown = self._figure(order, done)
             if shown.source == shown.name:
                 self.spent += sum(shown.table.sizes.values())
             done.append(shown)
         return done
 
-    def _figure(self, name: str, figure: Figure, done: list[Shown]) -> Shown:
-        own = dict(figure.options)
-        looks: dict[str, Any] = {**(self.options or {}), **(own.pop("options", None) or {})}
-        plan = planned(
-            figure.thing,
-            times=self.times if figure.times is None else figure.times,
-            parameters=lambda known: {**{n: v for n, v in self.given.items() if n in known}, **own},
-        )
-        options = checked_options(looks, plan.controls)
+    def _figure(self, order: _Order, done: list[Shown]) -> Shown:
+        name, figure, plan = order.name, order.figure, order.plan
         for other in done:
-            if _can_share(plan, options, other):
+            if _can_share(plan, order.options, other):
                 return Shown(name, figure.title, figure.thing, plan, other.table, other.source, figure.follow)
         plan.asker.advance = self.told.advance
         table = tabulated(
             plan,
             name=name,
             title=figure.title,
-            options=options,
+            options=order.options,
             begun=self.told.begin,
             survey=self._survey,
         )

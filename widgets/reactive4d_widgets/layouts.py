@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from reactive4d.errors import ShapeError, hint, unknown
 from reactive4d_widgets.figures import Shown
 from reactive4d_widgets.pages import heading, joined
+from reactive4d_widgets.proofs import leaders
 from reactive4d_widgets.prose import Written, written
 
 __all__ = ["Layout", "laid_out", "lead"]
@@ -37,16 +37,8 @@ def lead(shown: Sequence[Shown], text: str) -> None:
     follows = written(text, [replace(figure.cast(), block=str) for figure in shown]).follows
     for figure in shown:
         figure.follow = follows.get(figure.name, figure.follow)
-        if figure.follow is not None:
-            if figure.follow not in known:
-                raise unknown(figure.follow, known, what="figure")
-            figure.leader = known[figure.follow]
-    for figure in shown:
-        leader, steps = figure.leader, 0
-        while leader is not None and steps < len(shown):
-            leader, steps = leader.leader, steps + 1
-        if leader is not None:
-            raise hint(ShapeError(f"the figure {figure.name!r} follows itself"), "one of them has to lead")
+    for name, leader in leaders({figure.name: figure.follow for figure in shown}).items():
+        known[name].leader = known[leader]
 
 
 def laid_out(shown: Sequence[Shown], text: str, *, title: str | None) -> Layout:

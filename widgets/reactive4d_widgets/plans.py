@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import Any
 
 from reactive4d.arrays import ARRAY
-from reactive4d.errors import ParameterError, Reactive4dError, hint, unknown
+from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint, unknown
 from reactive4d.illustrations import Control, Subject, subject
 from reactive4d.model.reaches import key_times
 from reactive4d_widgets.channels import values_of
@@ -18,6 +18,7 @@ from reactive4d_widgets.sweeps import Asker
 __all__ = ["Plan", "planned"]
 
 MOST_STOPS = 1000
+LONGEST = 1000  # letters of a name
 
 
 class Plan:
@@ -84,6 +85,7 @@ def planned(
         TimeError: times that are neither.
         UnknownNameError: a parameter that nobody knows.
         ParameterError: a value that its parameter does not admit.
+        ShapeError: a name of more than a thousand letters.
         Reactive4dError: the scene is empty.
 
     >>> import reactive4d as r4
@@ -110,7 +112,26 @@ def planned(
             stops[name] = tuple(values)
         if len(values) == 1 or (control.kind == "number" and not values[0] <= opens[name] <= values[-1]):
             opens[name] = base[name]
-    return Plan(found, span, base=base, stops=stops, opens=opens)
+    plan = Plan(found, span, base=base, stops=stops, opens=opens)
+    _refuse_long_names(plan)
+    return plan
+
+
+def _refuse_long_names(plan: Plan) -> None:
+    """What a viewer takes for a mistake is told before it is asked for."""
+    named = {
+        "object": [seat.name for seat in plan.seats],
+        "value": [channel.what.removeprefix("values.") for channel in plan.values],
+        "parameter": list(plan.controls),
+        "handle": [handle["label"] for handle in plan.subject.handles],
+        "scene": [plan.subject.title],
+    }
+    for what, names in named.items():
+        for name in names:
+            count = len(name.encode("utf-16-le", "surrogatepass")) // 2  # as JavaScript counts
+            if count > LONGEST:
+                error = ShapeError(f"the name of the {what} {name[:40]!r}… has {count} letters")
+                raise hint(error, f"at most {LONGEST}; of a member of groups, the names of the groups count, too")
 
 
 def _opening(control: Control, wires: Mapping[str, Any]) -> Any:
@@ -121,7 +142,7 @@ def _values(control: Control, given: Any) -> list[Any]:
     """The values that an author gave, as the parameter understands them; numbers in their order, each once."""
     if control.constant:
         raise ParameterError(f"{control.name}: it is the same for all readers, and takes no values")
-    several = list(given) if _is_several(control, given) else [given]
+    several = list(given) if is_several(control, given) else [given]
     if not several:
         error = ParameterError(f"{control.name}: expected one value or more, got {given!r}")
         raise hint(error, f"{control.name}=[{control.default!r}]; leave it out to keep the value with which it opens")
@@ -144,7 +165,7 @@ def _plain(number: float) -> float:
     return rounded if abs(rounded - number) <= 4.0 * math.ulp(number) else number
 
 
-def _is_several(control: Control, given: Any) -> bool:
+def is_several(control: Control, given: Any) -> bool:
     """Whether these are several values, and not one that consists of several numbers, or of letters."""
     if isinstance(given, str | bytes | Mapping) or not isinstance(given, Iterable) or getattr(given, "ndim", 1) == 0:  # pyright: ignore
         return False
