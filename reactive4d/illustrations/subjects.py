@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from reactive4d.errors import ParameterError, ShapeError, hint, unknown
+from reactive4d.errors import ParameterError, ShapeError, UnknownNameError, hint, unknown
 from reactive4d.illustrations.bookmarks import Bookmark
 from reactive4d.illustrations.controls import Control, control_of_axis
 from reactive4d.illustrations.illustration import Illustration
@@ -15,6 +15,8 @@ from reactive4d.model.reaches import parameters_of
 from reactive4d.model.scenes import Scene
 
 __all__ = ["Subject", "subject"]
+
+NO_PARAMETERS = "the scene has no parameters; something in it has to read one, an r4.Parameter or one of self.signals"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,7 +179,10 @@ def _described(scene: Scene, one: Handle, controls: tuple[Control, ...]) -> dict
     for name in one.parameters:
         found = next((control for control in controls if control.name == name), None)
         if found is None:
-            raise unknown(name, [control.name for control in controls], what=f"parameter of the handle {one.label}:")
+            what = f"parameter of the handle {one.label}:"
+            if not controls:
+                raise hint(UnknownNameError(f"unknown {what} {name!r}"), NO_PARAMETERS)
+            raise unknown(name, [control.name for control in controls], what=what)
         if found.kind not in wanted:
             error = ShapeError(f"the handle {one.label} moves {name}, a parameter of the kind {found.kind}")
             raise hint(error, f"{' or '.join(wanted)}: x=, y=, z= and angle= take numbers, xy= takes XYCoordinates")

@@ -5,7 +5,10 @@ there are, and whether they are numbers, is known when the scene is shown.
 """
 
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
 
 from reactive4d.engine import Axis
 from reactive4d.errors import ShapeError, hint
@@ -56,10 +59,13 @@ def handle(scene: "Scene", obj: Any, /, *, label: str = "", **bound: Any) -> Han
         **bound: x, y, z, xy and angle: names of parameters, the parameters themselves, or None.
 
     Raises:
-        ShapeError: it is no object, none of the scene's, or the parameters do not make a line, a plane or a circle.
+        ShapeError: it is no object, none of the scene's, the parameters do not make a line, a plane or a circle, or
+            the label is no text. Whether parameters that were given by name are there is known when the scene is shown.
     """
     if not isinstance(obj, Object):
         raise ShapeError(f"handle: expected an object, got {obj!r}")
+    if not isinstance(label, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise hint(ShapeError(f"handle: label: expected a text, got {label!r}"), 'label="the kite"')
     name = node_name(scene, obj)
     if name is None:
         raise hint(ShapeError(f"handle: {obj.name} is not in the scene"), "name it there first, or the group it is in")
@@ -82,11 +88,26 @@ def handle(scene: "Scene", obj: Any, /, *, label: str = "", **bound: Any) -> Han
 def _named(key: str, value: Any) -> str:
     """The name of a parameter that was given by name, or itself."""
     if isinstance(value, Axis):
+        _refuse_other_kinds(key, value)
         return value.name
     if not isinstance(value, str) or not value.isidentifier():
         error = ShapeError(f"handle: {key}: expected the name of a parameter, got {value!r}")
         raise hint(error, f'{key}="height", or the parameter itself; what else there is to move follows from it')
     return value
+
+
+def _refuse_other_kinds(key: str, axis: Axis) -> None:
+    """One number for a line or a turn, two for a plane; a parameter that begins with None may be either."""
+    default: Any = axis.default
+    parts: Any = default if isinstance(default, tuple | list) else (default,)  # pyright: ignore
+    if default is None:
+        return
+    numbers = all(isinstance(part, Real) and not isinstance(part, bool | np.bool_) for part in parts)
+    wanted = 2 if key == "xy" else 1
+    if not numbers or len(parts) != wanted or (wanted == 1 and parts is default):
+        told = "two numbers" if wanted == 2 else "a number"
+        error = ShapeError(f"handle: {key}: expected a parameter that is {told}, got {axis.name}, which is {default!r}")
+        raise hint(error, "x=, y=, z= and angle= take a number each, xy= takes XYCoordinates: two numbers in one")
 
 
 def node_name(scene: "Scene", obj: Object) -> str | None:

@@ -157,6 +157,15 @@ def test_a_handle_is_checked_when_the_scene_is_shown(bound: Any, error: type[Exc
         subject(scene)
 
 
+def test_a_handle_of_a_scene_without_parameters_says_what_is_missing():
+    """There is nothing that it could move, whatever it names."""
+    scene = r4.Scene(ball=r4.Sphere())
+    scene.handle(scene["ball"], x="px")
+    with pytest.raises(r4.UnknownNameError, match="unknown parameter of the handle ball: 'px'") as refused:
+        subject(scene)
+    assert "the scene has no parameters" in refused.value.__notes__[0]
+
+
 @pytest.mark.parametrize("thing", [None, 3, r4.Sphere(), "scene", int, plain])
 def test_what_cannot_be_shown_is_refused(thing: Any):
     """With what can."""

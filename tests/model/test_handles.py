@@ -8,6 +8,9 @@ import reactive4d as r4
 
 px, py = r4.Parameter("handles_px", 0.0), r4.Parameter("handles_py", 0.0)
 
+pair = r4.Parameter("handles_pair", (0.0, 1.0))
+switch, word = r4.Parameter("handles_switch", False), r4.Parameter("handles_word", "red")
+
 
 def scene() -> r4.Scene:
     """A ball, and a group with a tyre in it."""
@@ -26,6 +29,7 @@ def scene() -> r4.Scene:
         ({"xy": "place"}, "plane", ("place",), ("x", "y")),
         ({"angle": "turn"}, "circle", ("turn",), ()),
         ({"x": px}, "axis", ("handles_px",), ("x",)),
+        ({"xy": pair}, "plane", ("handles_pair",), ("x", "y")),
     ],
 )
 def test_a_handle_is_a_line_a_plane_or_a_circle(bound: Any, kind: str, parameters: Any, axes: Any):
@@ -66,6 +70,12 @@ def test_a_member_of_a_group_has_its_path_for_a_name():
         ({"x": "not a name"}, "x: expected the name of a parameter"),
         ({"x": px * 2}, "x: expected the name of a parameter"),
         ({"x": True}, "x: expected the name of a parameter, got True"),
+        ({"x": "px", "label": 3}, "label: expected a text, got 3"),
+        ({"xy": 3}, "xy: expected the name of a parameter, got 3"),
+        ({"xy": px}, "xy: expected a parameter that is two numbers, got handles_px, which is 0.0"),
+        ({"x": pair}, r"x: expected a parameter that is a number, got handles_pair, which is \(0.0, 1.0\)"),
+        ({"z": switch}, "z: expected a parameter that is a number, got handles_switch, which is False"),
+        ({"angle": word}, "angle: expected a parameter that is a number, got handles_word, which is 'red'"),
     ],
 )
 def test_what_makes_no_handle_is_refused(bound: Any, says: str):
