@@ -26,6 +26,7 @@ from reactive4d.model.colorings import Color, Opacity, Shade, Texture
 from reactive4d.model.deformations import Bend, FreeForm, Ripple, Skew, Taper, Twist, Wave, XForm
 from reactive4d.model.drawings import Lines, Points
 from reactive4d.model.frames import Frame
+from reactive4d.model.guests import from_pyvista
 from reactive4d.model.kinds.aggregates import Combination, Group, Hull
 from reactive4d.model.kinds.arrows import Arrow
 from reactive4d.model.kinds.blobs import Blob
@@ -53,6 +54,7 @@ from reactive4d.model.selections import Select, Selecting
 from reactive4d.model.settings import Choice, Flag, Float, Held, Integer, Paint, Places, Reference, Text, Vector
 from reactive4d.model.tables import Table
 from reactive4d.model.transforms import LinkedXForm, LookAt, Matrix, Mirror, Orient, Rotate, Scale, Shear, Translate
+from reactive4d.model.trimeshes import from_trimesh
 from reactive4d.process import explain, graph, log, stats, transaction
 from reactive4d.scefo.binding import dumps, loads
 from reactive4d.scefo.unparsing import NotWritableError
@@ -190,6 +192,8 @@ __all__ = [
     "dumps",
     "equal",
     "explain",
+    "from_pyvista",
+    "from_trimesh",
     "graph",
     "keys",
     "lift",
