@@ -13,6 +13,7 @@ from pathlib import Path
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
 from reactive4d_apps import stories, sweeps
+from reactive4d_apps.books import commands as books
 from reactive4d_apps.demos import demonstrated, served
 from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import baked
@@ -72,7 +73,10 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
         yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
     elif words.command == "serve":
         browser = _browser() if words.open else None
-        yield from opened(found(words.place), port=words.port, host=words.host, browser=browser, width=width)
+        where = {"port": words.port, "host": words.host, "editable": words.editable}
+        yield from opened(found(words.place), browser=browser, width=width, **where)
+    elif words.command == "book":
+        yield from books.told(words, width=width)
     elif words.command == "sweep":
         yield from sweeps.swept(words, width=width)
     elif words.script is None:
@@ -110,9 +114,12 @@ def _parser() -> argparse.ArgumentParser:
     serve = commands.add_parser("serve", help=about, description=f"{about.capitalize()}, until ctrl-C.")
     about = "a script; or a scene, an illustration or a page in a module or a file, which runs"
     serve.add_argument("place", metavar="file.scefo|module:Class|file.py:Class", help=about)
+    about = "let readers edit the script, each in a copy that nobody else sees"
+    serve.add_argument("--editable", action="store_true", help=about)
     _add_server(serve)
 
     sweeps.add_command(commands)
+    books.add_command(commands)
 
     about = "print what the scene of a script shows at some instants"
     shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")
