@@ -15,12 +15,13 @@ from urllib.parse import parse_qsl, quote
 from reactive4d.errors import ParameterError, ShapeError, TimeError, hint, unknown
 from reactive4d.illustrations.controls import Control, Wire, number_of
 
-__all__ = ["Bookmark", "Look", "fields_of"]
+__all__ = ["TAKEN", "Bookmark", "Look", "fields_of"]
 
 # Where a reader looks from, and at what.
 Look: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float]]
 NONE: Mapping[str, Any] = MappingProxyType({})
 LONGEST = 10_000  # characters of a link
+TAKEN = ("t", "cam", "time")  # what a link, and a player, call the time and the camera: no names of parameters
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import param
 
 from reactive4d.devices import Showable
 from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, hint
-from reactive4d.illustrations.bookmarks import Bookmark, Look
+from reactive4d.illustrations.bookmarks import TAKEN, Bookmark, Look
 from reactive4d.illustrations.builds import Shared, is_out_of_reach, refuse_keeping, refuse_value
 from reactive4d.illustrations.controls import Control, control_of
 from reactive4d.illustrations.kinds import admitted, declared, kind_of
@@ -213,9 +213,9 @@ class Illustration(Showable, param.Parameterized):
 
 def _refuse_taken(cls: type, name: str) -> None:
     """Raise if a parameter has a name that means something else already."""
-    if name in ("t", "cam", "serve") or (name != "name" and hasattr(Illustration, name)):
+    if name in (*TAKEN, "serve") or (name != "name" and hasattr(Illustration, name)):
         error = ParameterError(f"{cls.__name__}.{name} cannot be a parameter: the name has a meaning of its own")
-        raise hint(error, f"such as {name}_; what is taken are `t`, `cam`, and what every illustration has")
+        raise hint(error, f"such as {name}_; what is taken are `t`, `cam`, `time`, and what every illustration has")
 
 
 type.__setattr__(Illustration, "_shared", Shared(Illustration))

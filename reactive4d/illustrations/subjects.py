@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from reactive4d.errors import ParameterError, ShapeError, UnknownNameError, hint, unknown
-from reactive4d.illustrations.bookmarks import Bookmark
+from reactive4d.illustrations.bookmarks import TAKEN, Bookmark
 from reactive4d.illustrations.controls import Control, control_of_axis
 from reactive4d.illustrations.illustration import Illustration
 from reactive4d.illustrations.settling import settle, twin
@@ -120,6 +120,7 @@ def subject(thing: Any, /) -> Subject:
     Raises:
         ShapeError: it is none of these, or a handle has parameters that do not fit.
         UnknownNameError: a handle has a parameter that the scene does not know.
+        ParameterError: a parameter is called `t`, `time` or `cam`, or like another one.
         Exception: whatever the illustration's build raises.
     """
     if isinstance(thing, type) and issubclass(thing, Illustration):
@@ -136,6 +137,10 @@ def subject(thing: Any, /) -> Subject:
         raise hint(error, "of an object: r4.Scene(it=…)")
     others = [control_of_axis(axis) for axis in parameters_of(scene) if not _is_among(axis, controls, thing)]
     controls = (*controls, *[control for control in others if control is not None])
+    for control in controls:
+        if control.name in TAKEN:
+            error = ParameterError(f"the scene reads a parameter called {control.name!r}, which has another meaning")
+            raise hint(error, "in links and for players `t` and `time` are the time, and `cam` is the camera")
     given = {control.name: point.parameters.get(control.name, control.default) for control in controls}
     return Subject(
         thing=thing,

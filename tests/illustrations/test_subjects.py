@@ -173,6 +173,15 @@ def test_what_cannot_be_shown_is_refused(thing: Any):
         subject(thing)
 
 
+@pytest.mark.parametrize("name", ["t", "cam", "time"])
+def test_the_time_and_the_camera_are_no_parameters(name: str):
+    """A link could not say which of the two is meant; neither of a scene nor of an illustration."""
+    with pytest.raises(r4.ParameterError, match=f"a parameter called '{name}'|'t' is not a name for a parameter"):
+        subject(r4.Scene(ball=r4.Sphere(r4.Parameter(name, 1.0))))
+    with pytest.raises(r4.ParameterError, match=f"Taken.{name} cannot be a parameter"):
+        type("Taken", (r4.Illustration,), {name: param.Number(1.0)})
+
+
 def test_another_parameter_of_the_same_name_is_refused():
     """An illustration's own and one that the scene reads besides cannot both be `size`."""
     other = r4.Parameter("subjects_size", 1.0)

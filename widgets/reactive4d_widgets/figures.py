@@ -8,7 +8,7 @@ from html import escape
 from typing import Any
 
 from reactive4d.errors import ParameterError, ShapeError, hint, unknown
-from reactive4d.illustrations import Bookmark
+from reactive4d.illustrations import Bookmark, Control
 from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.playbacks import Playback
@@ -16,7 +16,7 @@ from reactive4d_widgets.prose import Cast
 from reactive4d_widgets.stills import poster
 from reactive4d_widgets.tables import Table
 
-__all__ = ["OPTIONS", "Shown", "checked_options", "formatted", "worded"]
+__all__ = ["OPTIONS", "Shown", "can_play", "checked_options", "formatted", "worded"]
 
 SIZE = (1280, 800)
 # One pixel that lets all light through: what stands where no picture can be drawn.
@@ -37,12 +37,12 @@ OPTIONS: Mapping[str, tuple[Any, ...] | type] = {
 }
 
 
-def checked_options(options: Mapping[str, Any] | None, parameters: Mapping[str, Any]) -> dict[str, Any]:
+def checked_options(options: Mapping[str, Any] | None, parameters: Mapping[str, Control]) -> dict[str, Any]:
     """How a figure is shown at first, as it travels.
 
     Raises:
         UnknownNameError: an option that nobody knows, or a parameter that is to play and is none.
-        ShapeError: a value that is not of its kind.
+        ShapeError: a value that is not of its kind, or a parameter that cannot play.
 
     >>> checked_options({"theme": "dark", "grid": True}, {})
     {'theme': 'dark', 'grid': True}
@@ -61,7 +61,27 @@ def checked_options(options: Mapping[str, Any] | None, parameters: Mapping[str, 
     playing = (options or {}).get("playing", "time")
     if playing != "time" and playing not in parameters:
         raise unknown(playing, ["time", *parameters], what="parameter to play")
+    if playing != "time" and not can_play(parameters[playing]):
+        others = ", ".join(["time", *(name for name, control in parameters.items() if can_play(control))])
+        error = ShapeError(f"playing: {playing} cannot play: it is no number that goes from one bound to another")
+        raise hint(error, f"what can play: {others}")
     return dict(options or {})
+
+
+def can_play(control: Control) -> bool:
+    """Whether a parameter can play as time does: a number that a reader may set, between two bounds.
+
+    >>> import reactive4d as r4
+    >>> from reactive4d.illustrations import subject
+    >>> size, tint = r4.Parameter("size", 1.0, bounds=(0, 2)), r4.Parameter("tint", "#ff0000")
+    >>> scene = r4.Scene(ball=r4.Sphere(size, color=tint))
+    >>> [can_play(control) for control in subject(scene).controls]
+    [True, False]
+    """
+    low, high = control.bounds or (None, None)
+    first, last = control.soft or (None, None)
+    low, high = first if low is None else low, last if high is None else high
+    return control.kind in ("number", "integer") and not control.constant and None not in (low, high) and low != high
 
 
 @dataclass(slots=True)

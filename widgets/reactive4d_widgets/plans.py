@@ -1,7 +1,7 @@
 """Plans: what is to be asked for a page: the channels of all nodes, over which time, for which values of parameters."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -142,6 +142,8 @@ def _values(control: Control, given: Any) -> list[Any]:
     """The values that an author gave, as the parameter understands them; numbers in their order, each once."""
     if control.constant:
         raise ParameterError(f"{control.name}: it is the same for all readers, and takes no values")
+    if isinstance(given, Iterator):  # it can be gone through only once
+        given = list(given)  # pyright: ignore[reportUnknownVariableType,reportUnknownArgumentType]
     several = list(given) if is_several(control, given) else [given]
     if not several:
         error = ParameterError(f"{control.name}: expected one value or more, got {given!r}")

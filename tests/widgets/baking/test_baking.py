@@ -16,9 +16,17 @@ import pytest
 from PIL import Image
 
 import reactive4d as r4
-from reactive4d.errors import PageTooLargeError, Reactive4dError, ShapeError, TimeError, UnknownNameError
+from reactive4d.errors import (
+    PageTooLargeError,
+    ParameterError,
+    Reactive4dError,
+    ShapeError,
+    TimeError,
+    UnknownNameError,
+)
 from reactive4d_widgets import bundles, figures
 from reactive4d_widgets.baking import bake
+from reactive4d_widgets.plans import planned
 from reactive4d_widgets.playbacks import Playback
 
 NASTY = 'a "quoted" <b>&amp;</b> </script><script>alert(1)</script> <!-- </title> ü 🙂 \u2028'
@@ -454,6 +462,40 @@ def test_the_report_tells_the_author_what_readers_cannot_reach(tmp_path: Path) -
     )
     assert all(note in str(report) for note in report.notes)
     assert bake(ball(), tmp_path / "ball.html").notes == ()
+
+
+def test_values_may_come_one_by_one(tmp_path: Path) -> None:
+    """From a generator as from a list."""
+    plan = planned(Swing, times=(0, 1), parameters={"length": (x / 2 for x in range(1, 4))})
+    assert plan.asker.stops == {"length": (0.5, 1.0, 1.5)}
+    with pytest.raises(ParameterError, match=r"length: expected one value or more, got \[\]"):
+        bake(Swing, tmp_path / "page.html", length=(x for x in ()))
+
+
+def test_only_what_goes_from_one_bound_to_another_can_play(tmp_path: Path) -> None:
+    """Colours, choices, switches, pairs and numbers without an end are refused with those that can."""
+
+    class Many(r4.Illustration):
+        size = param.Number(1.0, bounds=(0.5, 2.0))
+        count = param.Integer(2, softbounds=(0, 5))
+        far = param.Number(1.0)
+        half = param.Number(1.0, bounds=(0, None))
+        held = param.Number(1.0, bounds=(0, 2), constant=True)
+        tint = param.Color("#ff0000")
+        mode = param.Selector(objects=["a", "b"])
+        on = param.Boolean(False)
+        span = param.Range((0.0, 1.0), bounds=(0, 1))
+
+        def build(self) -> r4.Scene:
+            return r4.Scene(ball=r4.Sphere(radius=self.signals.size))
+
+    for name in ("far", "half", "held", "tint", "mode", "on", "span"):
+        with pytest.raises(ShapeError, match=f"playing: {name} cannot play") as refused:
+            bake(Many, tmp_path / "page.html", options={"playing": name})
+        assert refused.value.__notes__ == ["hint: what can play: time, size, count"]
+    for name in ("time", "size", "count"):
+        report = bake(Many, tmp_path / "page.html", times=(0, 1), options={"playing": name})
+        assert seen(report.path).data()["many"]["manifest"]["options"] == {"playing": name}
 
 
 @pytest.mark.parametrize(("one", "two"), [("one", None), ("two", "one")])
