@@ -1,0 +1,84 @@
+"""Figures about changes: an object is a list of them, and the list stays editable."""
+
+from typing import Any
+
+import numpy as np
+import param
+
+import reactive4d as r4
+
+__all__ = ["Gate", "Order", "Stack"]
+
+
+ORDERS: list[str] = ["bend, then twist", "twist, then bend"]
+
+
+class Stack(r4.Illustration):
+    """A tube with a bend and a twist, and the list of both, whose order and switches a reader changes."""
+
+    order: Any = param.Selector(default=ORDERS[0], objects=ORDERS)
+    bend = param.Number(90.0, bounds=(0, 120), doc="angle of the bend [deg]")
+    twist = param.Number(120.0, bounds=(0, 240), doc="angle of the twist [deg]")
+    bends = param.Boolean(True, doc="whether the bend acts")
+    twists = param.Boolean(True, doc="whether the twist acts")
+
+    def build(self) -> r4.Scene:
+        """The bend stands in the list twice, before the twist and after it; at most one of the two acts."""
+        p = self.signals
+        is_first = r4.equal(p.order, ORDERS[0])
+        tube = r4.Tube(0.45, 0.32, 4, segments=6, stacks=24, color="steelblue")
+        tube.apply(r4.Bend(p.bend, enabled=np.logical_and(p.bends, is_first)))
+        tube.apply(r4.Twist(p.twist, enabled=p.twists))
+        tube.apply(r4.Bend(p.bend, enabled=np.logical_and(p.bends, np.logical_not(is_first))))
+
+        places = {"tube": 0.0, "bend": r4.where(is_first, 1.0, 2.0), "twist": r4.where(is_first, 2.0, 1.0)}
+        strengths = {"tube": 1.0, "bend": r4.where(p.bends, 1.0, 0.25), "twist": r4.where(p.twists, 1.0, 0.25)}
+        colors = {"tube": "steelblue", "bend": "darkorange", "twist": "seagreen"}
+        cards: dict[str, r4.Object] = {}
+        for name, place in places.items():
+            card = cards[f"{name} card"] = r4.Box((1.5, 0.2, 0.6), color=colors[name])
+            card.opacity = strengths[name]
+            text = cards[f"{name} text"] = r4.Label(name, height=15)
+            for each in (card, text):
+                each.translate(r4.vec(3.4, 0, 0.8 * place - 0.8))
+        return r4.Scene({"camera": r4.Camera((1.5, -9.5, 3), (1.6, 0, 0), fov=32), "tube": tube, **cards})
+
+
+class Gate(r4.Illustration):
+    """A bend that acts from 2 s to 4 s, and a move that goes on."""
+
+    times = (0, 6)
+
+    def build(self) -> r4.Scene:
+        """Whether a change acts is a signal like all others."""
+        acts = r4.keys({0: 0, 2: 1, 4: 0}, interpolation="step")
+        bar = r4.Box((0.5, 0.5, 3), segments=(1, 1, 24))
+        bend = bar.apply(r4.Bend(80))
+        bend.enabled = acts
+        bar.color = r4.where(acts > 0, r4.color("darkorange"), r4.color("steelblue"))
+        bar.translate(r4.keys({0: (-2, 0, 1.5), 6: (2, 0, 1.5)}))
+        return r4.Scene(bar=bar, camera=r4.Camera((0, -11, 4), (0.2, 0, 1.4), fov=30))
+
+
+class Order(r4.Illustration):
+    """Move and turn, or turn and move: the same two changes, in both orders."""
+
+    angle = param.Number(60.0, bounds=(0, 360), doc="by which both turn [deg]")
+    length = param.Number(2.0, bounds=(0, 2.5), doc="by which both move [m]")
+
+    def build(self) -> r4.Scene:
+        """The orange one is turned about the origin after it was moved, so it is carried round."""
+        p = self.signals
+        start = r4.Polyhedron("tetrahedron", 0.3, color="gray")
+        turned, moved = (r4.Box((0.9, 0.45, 0.3), color=color) for color in ("steelblue", "darkorange"))
+        turned.rotate(p.angle)
+        turned.translate(r4.vec(p.length, 0, 0))
+        moved.translate(r4.vec(p.length, 0, 0))
+        moved.rotate(p.angle)
+        circle = r4.Circle(1, segments=96, color="gray")
+        circle.scale(p.length)
+        camera = r4.Camera((2, -9, 6), (0, 0, 0), fov=32)
+        scene = r4.Scene(camera=camera, turned=turned, moved=moved, start=start, circle=circle)
+        scene.signals["gap"] = 2 * p.length * abs(np.sin(np.radians(p.angle / 2)))
+        scene.signals["solved"] = abs(scene.signals["gap"] - 2 * p.length) < 0.02
+        return scene
