@@ -71,12 +71,17 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
         scene = r4.Scene.load(words.script)
         place = words.output or Path(words.script).with_suffix(".html").name
         yield from baked(scene, place, times=words.times, title=words.title, limit=words.limit, width=width)
+    elif words.command == "serve" and words.place == "gallery":
+        from reactive4d_apps.books.galleries import gallery
+
+        browser = _browser() if words.open else None
+        yield from gallery(port=words.port, host=words.host, browser=browser, width=width)
     elif words.command == "serve":
         browser = _browser() if words.open else None
         where = {"port": words.port, "host": words.host, "editable": words.editable}
         yield from opened(found(words.place), browser=browser, width=width, **where)
     elif words.command == "book":
-        yield from books.told(words, width=width)
+        yield from books.told(words, browser=_browser(), width=width)
     elif words.command == "sweep":
         yield from sweeps.swept(words, width=width)
     elif words.script is None:
@@ -112,8 +117,8 @@ def _parser() -> argparse.ArgumentParser:
 
     about = "serve a page of a script or a class to any number of readers"
     serve = commands.add_parser("serve", help=about, description=f"{about.capitalize()}, until ctrl-C.")
-    about = "a script; or a scene, an illustration or a page in a module or a file, which runs"
-    serve.add_argument("place", metavar="file.scefo|module:Class|file.py:Class", help=about)
+    about = "a script; or a scene, an illustration or a page in a module or a file, which runs; or gallery: the book"
+    serve.add_argument("place", metavar="file.scefo|module:Class|file.py:Class|gallery", help=about)
     about = "let readers edit the script, each in a copy that nobody else sees"
     serve.add_argument("--editable", action="store_true", help=about)
     _add_server(serve)

@@ -13,9 +13,10 @@ from pathlib import Path
 from reactive4d.errors import Reactive4dError, UnknownNameError, hint
 from reactive4d_apps.phrases import paragraph, sized
 
-__all__ = ["Build", "built", "made", "source_of"]
+__all__ = ["FIGURES", "TREES", "Build", "built", "made", "source_of"]
 
-FIGURES = "figures.json"  # in the folder of doctrees
+TREES = "doctrees"
+FIGURES = "figures.json"  # among them
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -53,16 +54,21 @@ def source_of(folder: Path) -> Path:
 
 
 def made(
-    folder: Path, *, out: Path | None = None, builder: str = "html", strict: bool = False, fresh: bool = False
+    folder: Path,
+    *,
+    out: Path | None = None,
+    work: Path | None = None,
+    builder: str = "html",
+    strict: bool = False,
 ) -> Build:
     """Build a book.
 
     Args:
         folder: of its pages, where conf.py is.
-        out: where it is written; by default `build/html` in the folder.
+        out: where it is written; by default `html` in the folder of its work.
+        work: the folder of what is kept between builds; by default `build` in that of its pages.
         builder: of Sphinx.
         strict: whether a warning is an error.
-        fresh: whether all pages are read anew; figures that did not change are not asked again even so.
 
     Raises:
         UnknownNameError: there is no book.
@@ -71,9 +77,9 @@ def made(
     source = source_of(folder)
     if find_spec("sphinx") is None or find_spec("myst_parser") is None:
         raise hint(Reactive4dError("Sphinx and MyST are not installed"), "pip install 'reactive4d[book]'")
-    site = out or source / "build" / builder
-    trees = (site.parent if out is None else site) / ("doctrees" if out is None else ".doctrees")
-    words = [sys.executable, "-m", "sphinx", "-q", "-b", builder, "-d", str(trees), *(["-E"] if fresh else [])]
+    kept = work or source / "build"
+    site, trees = out or kept / builder, kept / TREES
+    words = [sys.executable, "-m", "sphinx", "-q", "-b", builder, "-d", str(trees)]
     words += [*(["-W", "--keep-going"] if strict else []), str(source), str(site)]
     run = subprocess.run(words, capture_output=True, text=True, encoding="utf-8", errors="replace", env=_environment())
     complaints = tuple(_complaints(run.stderr, source))
@@ -83,7 +89,7 @@ def made(
         figures = len(json.loads((trees / FIGURES).read_text(encoding="utf-8")))
     except OSError:
         figures = 0
-    size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file() and trees not in path.parents)
+    size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
     return Build(source, site, True, complaints, figures, size)
 
 
@@ -123,12 +129,13 @@ def built(
     build = made(folder, out=out, strict=strict)
     yield from build.complaints
     if not build.ok:
-        raise Reactive4dError(f"{folder}: the book was not built")
+        refused = Reactive4dError(f"{folder}: the book was not built")
+        raise hint(refused, "what is wrong stands above") if build.complaints else refused
     count = f"{build.figures} figure{'' if build.figures == 1 else 's'}"
     yield f"{build.site / 'index.html'}: {count}, {build.size / 1e6:.1f} MB in all"
     yield from paragraph("Any browser opens it, from the disk or from any server of files, without a network.", width)
     if pdf:
         from reactive4d_apps.books.printing import printed
 
-        path = printed(folder, build.site.with_suffix(".pdf") if out else folder / "build" / "book.pdf")
+        path = printed(folder, out.with_suffix(".pdf") if out else folder / "build" / "book.pdf")
         yield f"{path}: {sized(path.stat().st_size)}"

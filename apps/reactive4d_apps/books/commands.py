@@ -1,8 +1,7 @@
 """The command `reactive4d book`: new, build, serve."""
 
 import argparse
-import webbrowser
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -46,8 +45,14 @@ def _add_folder(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def told(words: argparse.Namespace, *, width: int) -> Iterator[str]:
-    """Do what the command says, and tell of it line by line."""
+def told(words: argparse.Namespace, *, browser: Callable[[str], bool], width: int) -> Iterator[str]:
+    """Do what the command says, and tell of it line by line.
+
+    Args:
+        words: of the command line.
+        browser: what opens an address.
+        width: of the terminal, in characters.
+    """
     if words.verb == "new":
         from reactive4d_apps.books.projects import begun
 
@@ -59,5 +64,5 @@ def told(words: argparse.Namespace, *, width: int) -> Iterator[str]:
     else:
         from reactive4d_apps.books.serving import opened
 
-        browser = webbrowser.open if words.open else None
-        yield from opened(words.folder, port=words.port, host=words.host, browser=browser, width=width)
+        opening = browser if words.open else None
+        yield from opened(words.folder, port=words.port, host=words.host, browser=opening, width=width)

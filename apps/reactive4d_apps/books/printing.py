@@ -14,12 +14,13 @@ __all__ = ["printed"]
 PATIENCE = 300  # seconds
 
 
-def printed(folder: Path, path: Path) -> Path:
+def printed(folder: Path, path: Path, *, work: Path | None = None) -> Path:
     """Print a book: all its pages in their order, figures as their still pictures.
 
     Args:
         folder: of its pages.
         path: of the PDF file.
+        work: the folder of what is kept between builds; by default `build` in that of its pages.
 
     Raises:
         Reactive4dError: there is no Chromium here, or it could not print.
@@ -28,7 +29,7 @@ def printed(folder: Path, path: Path) -> Path:
     if browser is None:
         raise hint(Reactive4dError("there is no Chromium here, which prints"), "install Chromium or Google Chrome")
     with tempfile.TemporaryDirectory() as place:
-        build = made(folder, out=Path(place) / "book", builder="singlehtml")
+        build = made(folder, out=Path(place) / "book", work=work, builder="singlehtml")
         if not build.ok:
             raise Reactive4dError(f"{folder}: the book was not built")
         page = build.site / "index.html"

@@ -27,6 +27,7 @@ A book whose figures live.
 
 ```{{toctree}}
 :caption: Chapters
+:numbered: 1
 :glob:
 
 chapters/*

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from reactive4d.errors import Reactive4dError
-from reactive4d_apps.books.builds import Build, made
+from reactive4d_apps.books.builds import TREES, Build, made
 from reactive4d_apps.phrases import paragraph
 
 __all__ = ["opened", "seen"]
@@ -49,6 +49,7 @@ def opened(
     browser: Callable[[str], bool] | None = None,
     width: int = 80,
     rounds: int | None = None,
+    work: Path | None = None,
 ) -> Iterator[str]:
     """Serve a book and tell what happens.
 
@@ -59,6 +60,7 @@ def opened(
         browser: what opens an address; None to open none.
         width: of the terminal, in characters.
         rounds: how often it looks at the files; None for as long as nobody presses ctrl-C.
+        work: the folder of what is kept between builds; by default `build` in that of its pages.
 
     Returns:
         The lines, as they come.
@@ -72,11 +74,12 @@ def opened(
     from reactive4d_apps.serving.servers import Server
 
     files = seen(folder)
-    build = made(folder)
+    kept = work or folder / "build"
+    build = made(folder, work=kept)
     yield from build.complaints
     if not build.ok:
         raise Reactive4dError(f"{folder}: the book was not built")
-    trees = build.site.parent / "doctrees"
+    trees = kept / TREES
     shelf = Shelf(entries_of(trees), [folder.resolve()])
     library = Library(build.site, shelf.figures, host=host)
     library.complain(build.complaints)
@@ -95,7 +98,7 @@ def opened(
                 if now == files:
                     continue
                 files = now
-                build = made(folder)
+                build = made(folder, work=kept)
                 if build.ok:
                     shelf.forget()
                     shelf = Shelf(entries_of(trees), [])
