@@ -13,6 +13,8 @@ import reactive4d as r4
 pytest.importorskip("anywidget")
 
 from reactive4d_widgets.jupyter import FigureWidget
+from reactive4d_widgets.keepsakes import Keepsake
+from reactive4d_widgets.live import Model
 from reactive4d_widgets.loaders import LOADER, bundle
 
 
@@ -105,3 +107,46 @@ def test_callbacks_on_several_threads_are_all_answered() -> None:
         (name, k) for name in "abcd" for k in range(20)
     )
     assert fig.height == pytest.approx(1.95)
+
+
+def test_a_cell_that_runs_again_ends_what_it_showed_when_its_last_view_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two hundred runs leave one widget, one model, one reader, and one watcher of the parameters."""
+    run = ["1"]
+    monkeypatch.setattr("reactive4d_widgets.jupyter.running", lambda: ("cell", run[0]))
+    monkeypatch.setattr("reactive4d_widgets.jupyter.kept", lambda *_, **__: Keepsake("", None, None))
+    fig = type("Pole", (Pole,), {})()
+    ended: list[Any] = []
+    before = len(watchers(fig))
+    last: Any = None
+    for k in range(200):
+        run[0] = str(k)
+        widget, _ = wired(fig)
+        weakref.finalize(widget, ended.append, k)
+        widget.present()
+        widget._heard(widget, {**ASK, "id": 1, "view": f"view {k}"}, [])
+        if last is not None:
+            last._heard(last, {"type": "close", "view": f"view {k - 1}"}, [])
+        last = widget
+    del widget
+    gc.collect()
+    assert (len(ended), last.views) == (199, 1)
+    assert len(Model.of(fig).readers) == 1
+    assert len(watchers(fig)) - before == 1
+
+
+def test_what_was_ended_can_be_shown_again() -> None:
+    """And follows the parameters as before."""
+    fig = Pole()
+    widget, _ = wired(fig)
+    widget.retire()
+    assert widget.comm is None
+    fig.height = 2.0
+    widget.present()
+    assert widget.params["height"] == 2.0
+    fig.height = 2.5
+    assert (widget.params["height"], widget.comm is None) == (2.5, False)
+
+
+def watchers(fig: Any) -> list[Any]:
+    """Who follows the height of a pole."""
+    return fig.param.watchers.get("height", {}).get("value", [])

@@ -1,5 +1,6 @@
 """Showing: a page in a temporary folder, handed to the browser."""
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +58,7 @@ def test_without_a_screen_the_page_is_written_all_the_same(monkeypatch: pytest.M
     """And its place is told."""
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(showing.sys, "platform", "linux")
+    monkeypatch.setattr(sys, "platform", "linux")
     shown = showing.show(Ball, path=tmp_path / "ball.html")
     assert not shown.is_open
     assert shown.path.is_file()

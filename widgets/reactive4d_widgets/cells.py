@@ -4,7 +4,10 @@ import sys
 from importlib.util import find_spec
 from typing import Any
 
-__all__ = ["display", "in_notebook"]
+from reactive4d.errors import Reactive4dError, hint
+from reactive4d_widgets.figures import OPTIONS
+
+__all__ = ["display", "in_notebook", "show"]
 
 
 def in_notebook() -> bool:
@@ -34,3 +37,35 @@ def display(thing: Any, /) -> bool:
 
     FigureWidget(thing).present()
     return True
+
+
+def show(thing: Any, /, **options: Any) -> Any:
+    """Put a figure into the cell that runs.
+
+    Args:
+        thing: a Scene, an Illustration or its class.
+        **options: `times`, `title`, `save`, and how the figure is shown at first: theme, height, loop, grid …
+
+    Returns:
+        The widget: `widget.time` and `widget.params` can be set and linked.
+
+    Raises:
+        UnknownNameError: an option that nobody knows.
+    """
+    from reactive4d_widgets.jupyter import FigureWidget
+
+    looks = {name: options.pop(name) for name in OPTIONS if name in options}
+    strangers = set(options) - {"times", "title", "save", "options"}
+    if strangers:
+        error = Reactive4dError(f"show: {', '.join(sorted(strangers))}: not in a notebook")
+        raise hint(error, "times, title, save, theme, height, loop, autoplay, grid …; bake writes a page")
+    made = FigureWidget(
+        thing,
+        times=options.get("times"),
+        title=options.get("title"),
+        options={**looks, **(options.get("options") or {})},
+        save=options.get("save"),
+    )
+    made.present()
+    made.is_fresh = True
+    return made

@@ -9,23 +9,24 @@ import threading
 import uuid
 import weakref
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from importlib import import_module
 from typing import Any
 
 import anywidget
 import traitlets
 
-from reactive4d.errors import Reactive4dError, hint
 from reactive4d.illustrations import Bookmark, Illustration, subject
 from reactive4d.illustrations.controls import listed
 from reactive4d.illustrations.settling import settle
-from reactive4d_widgets.figures import OPTIONS, checked_options
+from reactive4d_widgets.figures import checked_options
 from reactive4d_widgets.keepsakes import kept, limit_of, placeholder
 from reactive4d_widgets.live import Reader
 from reactive4d_widgets.loaders import LOADER, bundle
+from reactive4d_widgets.reruns import noted, running
 
-__all__ = ["FigureWidget", "show"]
+__all__ = ["FigureWidget"]
 
 MOST_VIEWS = 16
 
@@ -44,6 +45,7 @@ class FigureWidget(anywidget.AnyWidget):
     Attributes:
         time: where the reader is, seconds; can be set, and linked.
         params: the values of the parameters, as they travel; of an illustration those of `fig.param`, both ways.
+        is_fresh: whether it was shown just now, and need not be shown as the result of its cell.
 
     >>> import param
     >>> import reactive4d as r4
@@ -88,7 +90,9 @@ class FigureWidget(anywidget.AnyWidget):
         self._views: OrderedDict[str, Reader] = OrderedDict()
         self._guard = threading.RLock()
         self._is_settling = False
-        self._is_fresh = False
+        self.is_fresh = False
+        self._is_retired = False
+        self._watch: Callable[[], None] | None = None
         super().__init__(
             time=about.point.time,
             params={name: listed(wire) for name, wire in about.point.parameters.items()},
@@ -98,10 +102,7 @@ class FigureWidget(anywidget.AnyWidget):
         me: Any = self
         me.on_msg(self._heard)
         self.observe(self._params_were_set, "params")
-        if isinstance(made, Illustration):
-            names = [control.name for control in made.controls]
-            watcher: Any = made.param
-            watcher.watch(_Watch(self._parameters_were_set), names)
+        self._follow()
 
     # -- messages ----------------------------------------------------------------------------------------------------
 
@@ -156,6 +157,15 @@ class FigureWidget(anywidget.AnyWidget):
                 reader.close()
             if not self._views:
                 self._held = None
+                if self._is_retired:
+                    self.close()
+
+    def retire(self) -> None:
+        """The cell that showed it is run again: it ends with its last view."""
+        with self._guard:
+            self._is_retired = True
+            if not self._views:
+                self.close()
 
     @property
     def views(self) -> int:
@@ -163,12 +173,17 @@ class FigureWidget(anywidget.AnyWidget):
         return len(self._views)
 
     def close(self) -> None:
-        """Show it no more."""
+        """Show it no more; it can be presented again."""
+        if not hasattr(self, "_guard"):  # it was refused before it was made
+            return
         with self._guard:
             for reader in self._views.values():
                 reader.close()
             self._views.clear()
             self._held = None
+            end, self._watch = self._watch, None
+        if end is not None:
+            end()
         super().close()
 
     # -- parameters --------------------------------------------------------------------------------------------------
@@ -192,6 +207,13 @@ class FigureWidget(anywidget.AnyWidget):
             finally:
                 self._is_settling = False
 
+    def _follow(self) -> None:
+        """Follow the parameters of an illustration for as long as this is open."""
+        thing = self._thing()
+        if isinstance(thing, Illustration) and self._watch is None:
+            names = [control.name for control in thing.controls]
+            self._watch = _Watch(thing, names, self._parameters_were_set).end
+
     def _parameters_were_set(self) -> None:
         """By hand, of the illustration."""
         thing = self._thing()
@@ -213,8 +235,8 @@ class FigureWidget(anywidget.AnyWidget):
     # -- display -----------------------------------------------------------------------------------------------------
 
     def _ipython_display_(self) -> None:
-        if self._is_fresh:  # the result of `show`, which has displayed it already
-            self._is_fresh = False
+        if self.is_fresh:  # the result of `show`, which has displayed it already
+            self.is_fresh = False
             return
         self.present()
 
@@ -226,13 +248,20 @@ class FigureWidget(anywidget.AnyWidget):
         put: Any = import_module("IPython.display").display
         thing = self._thing()
         name = self._poster
+        me: Any = super()
+        if self.comm is None:  # it was closed
+            me.open()
+            self._follow()
+            self._parameters_were_set()
+        self._is_retired = False
+        noted(self, running())
         place: Any = None
         if thing is not None:
             place = put(placeholder(name, subject(thing).title), raw=True, display_id=True)
-        me: Any = super()
         found: Any = me._repr_mimebundle_()
         if found:
-            put(found[0] if isinstance(found, tuple) else found, raw=True)
+            view: Any = found[0] if isinstance(found, tuple) else found  # pyright: ignore[reportUnknownVariableType]
+            put({**view, "text/plain": ""}, raw=True)  # where no widget runs, what is kept says enough
         if place is not None:
             place.update(kept(thing, save=self._save, **self._settings).outputs(name), raw=True)
 
@@ -243,10 +272,14 @@ def _wire(value: Any) -> Any:
 
 
 class _Watch:
-    """Calls a method for as long as its object is there."""
+    """Calls a method when parameters of an illustration are set, for as long as its object is there."""
 
-    def __init__(self, method: Any) -> None:
+    def __init__(self, thing: Any, names: list[str], method: Any) -> None:
         self._method = weakref.WeakMethod(method)
+        # The illustration has the watcher, which has this; `end` is held by the widget, and keeps nothing alive.
+        watcher = thing.param.watch(self, names)
+        self.end = partial(_end, weakref.ref(thing), weakref.ref(self))
+        self.watcher = watcher
 
     def __call__(self, *events: Any) -> None:
         found = self._method()
@@ -254,31 +287,7 @@ class _Watch:
             found()
 
 
-def show(thing: Any, /, **options: Any) -> FigureWidget:
-    """Put a figure into the cell that runs.
-
-    Args:
-        thing: a Scene, an Illustration or its class.
-        **options: `times`, `title`, `save`, and how the figure is shown at first: theme, height, loop, grid …
-
-    Returns:
-        The widget: `widget.time` and `widget.params` can be set and linked.
-
-    Raises:
-        UnknownNameError: an option that nobody knows.
-    """
-    looks = {name: options.pop(name) for name in OPTIONS if name in options}
-    strangers = set(options) - {"times", "title", "save", "options"}
-    if strangers:
-        error = Reactive4dError(f"show: {', '.join(sorted(strangers))}: not in a notebook")
-        raise hint(error, "times, title, save, theme, height, loop, autoplay, grid …; bake writes a page")
-    made = FigureWidget(
-        thing,
-        times=options.get("times"),
-        title=options.get("title"),
-        options={**looks, **(options.get("options") or {})},
-        save=options.get("save"),
-    )
-    made.present()
-    made._is_fresh = True  # pyright: ignore[reportPrivateUsage]
-    return made
+def _end(thing: Any, watch: Any) -> None:
+    found, watching = thing(), watch()
+    if found is not None and watching is not None:
+        found.param.unwatch(watching.watcher)

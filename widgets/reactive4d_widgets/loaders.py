@@ -34,8 +34,14 @@ function fetched(model, hash) {
   });
 }
 
+// What a notebook keeps of a figure carries the viewer along.
+function kept(hash) {
+  const code = document.querySelector(`[data-r4d-bundle="${hash}"]`)?.textContent.trim();
+  return code ? Uint8Array.from(atob(code), (letter) => letter.charCodeAt(0)) : null;
+}
+
 async function load(model, hash) {
-  const bytes = await fetched(model, hash);
+  const bytes = kept(hash) ?? await fetched(model, hash);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
   const address = URL.createObjectURL(code);
@@ -94,11 +100,13 @@ KEEPER = """
   }
 
   async function begin() {
-    if (!viewers.has(hash)) {
+    const pause = new Promise((done) => { setTimeout(done, 500); }); // a kernel that is gone is not waited for
+    let viewer = await Promise.race([viewers.get(hash), pause]);
+    if (!viewer) {
       viewers.set(hash, load().catch((error) => { viewers.delete(hash); throw error; }));
+      viewer = await viewers.get(hash);
     }
-    const { keepsake } = await viewers.get(hash);
-    keepsake({ place, data: JSON.parse(table.textContent) });
+    viewer.keepsake({ place, data: JSON.parse(table.textContent) });
   }
 
   const seen = new IntersectionObserver((entries) => {

@@ -44,7 +44,8 @@ def show(
         path: of the file; by default one in a temporary folder, which stays until the system clears it.
         browser: what opens an address, and says whether it could; by default the system's own browser.
         progress: whether a bar is shown while it is baked.
-        **options: how the figure is shown at first (theme, height, loop, grid …), and what `bake` takes.
+        **options: how the figure is shown at first (theme, height, loop, grid …), and what `bake` takes; in a notebook
+            `save`, what is kept of it, see docs/notebooks.md.
 
     Returns:
         Where the page is; in a notebook the widget.
@@ -59,11 +60,12 @@ def show(
     ('scene.html', True)
     """
     if path is None and browser is None and not hasattr(thing, "figures") and in_notebook() and find_spec("anywidget"):
-        from reactive4d_widgets.jupyter import show as show_in_cell
+        from reactive4d_widgets.cells import show as show_in_cell
 
         return show_in_cell(thing, **options)
     name = getattr(thing, "name", "") if hasattr(thing, "figures") else subject(thing).name
     target = Path(tempfile.mkdtemp(prefix="reactive4d-")) / f"{name or 'page'}.html" if path is None else Path(path)
+    options.pop("save", None)  # a page keeps all that it shows
     figure = {key: options.pop(key) for key in OPTIONS if key in options}
     bake(thing, target, options={**figure, **(options.pop("options", None) or {})}, progress=progress, **options)
     opens = browser or (webbrowser.open if has_screen() else _nobody)
