@@ -19,7 +19,7 @@ Device: TypeAlias = Callable[..., Any]
 _devices: dict[str, Device | str] = {
     "bake": "reactive4d_widgets.baking:bake",  # one page that needs no server
     "display": "reactive4d_widgets.cells:display",  # the last line of a cell of a notebook
-    "render": "reactive4d_widgets.stills:render",  # a still picture
+    "render": "reactive4d_widgets.rendering:render",  # a still, a film, or a model of one instant
     "serve": "reactive4d_apps.serving:serve",  # a page for many readers
     "show": "reactive4d_widgets.showing:show",  # a window, or a cell of a notebook
     "to_pyvista": "reactive4d_widgets.blocks:blocks",  # PyVista's own data, to go on with
@@ -122,11 +122,12 @@ class Showable:
         return device("bake")(self, path, **options)
 
     def render(self, path: str | Path, **options: Any) -> Any:
-        """Draw a still picture of what a reader sees.
+        """Write what a reader sees: a still picture, a film, or a model of one instant.
 
         Args:
-            path: of the file, .png.
-            **options: `t`, seconds; `size`, pixels; a parameter's value by its name.
+            path: of the file: .png; .mp4 (it needs `reactive4d[films]`), .gif, .webp; .glb.
+            **options: `t` of one instant, seconds, or `times` and `rate` of a film; `size`, pixels; a parameter's value
+                by its name, in a film also one for each picture.
         """
         return device("render")(self, path, **options)
 

@@ -7,9 +7,10 @@ itself is read, whatever it may name.
 
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
+from typing import IO, Final
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from reactive4d.geometry import grids, meshes
 from reactive4d.geometry.formats import glb, obj, off, ply, stl
 from reactive4d.geometry.meshes import Mesh
 
-__all__ = ["KINDS", "LARGEST", "dump", "dumps", "load", "loads", "located", "put"]
+__all__ = ["KINDS", "LARGEST", "drafted", "dump", "dumps", "load", "loads", "located", "put"]
 
 _READERS: Final[dict[str, Callable[[bytes], Mesh]]] = {
     "off": off.read,
@@ -159,11 +160,30 @@ def put(path: str | Path, content: bytes) -> None:
     ...     (Path(folder) / "two.txt").read_bytes()
     b'2'
     """
+    with drafted(path) as file:
+        file.write(content)
+
+
+@contextmanager
+def drafted(path: str | Path) -> Generator[IO[bytes]]:
+    """A file to be written to; it takes the place of an old one when the block is done, and is gone if that fails.
+
+    Raises:
+        OSError: it cannot be written.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with drafted(f"{folder}/two.txt") as file:
+    ...         _ = file.write(b"2")
+    ...     (Path(folder) / "two.txt").read_bytes()
+    b'2'
+    """
     place = Path(path)
     handle, draft = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
+    os.close(handle)
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
+        with Path(draft).open("w+b") as file:
+            yield file
             file.flush()
             os.fsync(file.fileno())
         # mkstemp makes files for their owner alone; a saved file may be read by others, or as the old one could.

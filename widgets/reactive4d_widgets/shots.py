@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,63 @@ from reactive4d.illustrations import subject as subject_of
 from reactive4d.model.frames import Frame
 from reactive4d_widgets.views import View, camera_of, camera_view, holding, instants, outermost
 
-__all__ = ["seen"]
+__all__ = ["Shot", "seen"]
+
+
+class Shot:
+    """From where a scene is looked at over some instants: it stands still, unless a camera of the scene moves.
+
+    Args:
+        frames: at some of the instants: what is in them is in the picture.
+        aspect: the picture's width by its height.
+        camera: as for `render`.
+        place: where a reader stands: (position, target); None for nowhere.
+        bounds: (2, 3), the box of all that is ever to be seen, metres, if that is known: nothing is looked for then.
+
+    Attributes:
+        bounds: (2, 3), the box of all that is seen, metres.
+
+    >>> import reactive4d as r4
+    >>> scene = r4.Scene(ball=r4.Sphere())
+    >>> shot = Shot([scene.at(0.0)], aspect=4 / 3)
+    >>> shot.view(scene.at(1.0)).fov, shot.bounds.round(2).tolist()
+    (30.0, [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
+    """
+
+    def __init__(
+        self, frames: Iterable[Frame], *, aspect: float, camera: Any = None, place: Any = None, bounds: Any = None
+    ) -> None:
+        if bounds is None:
+            points = outermost(frames)
+        else:
+            points = np.array(list(itertools.product(*np.asarray(bounds, dtype=np.float64).T)))
+        self.bounds: NDArray[np.float64] = (
+            np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
+        )
+        self._points = points
+        self._aspect = aspect
+        if camera is None and place is not None:
+            camera = dict(zip(("position", "target"), place, strict=True))
+        fixed = camera is None or isinstance(camera, str | View)
+        self._camera: str | View | None = camera if fixed else _view(camera)
+        self._holding: View | None = None
+
+    def view(self, frame: Frame) -> View:
+        """From where one looks at a frame.
+
+        Raises:
+            UnknownNameError: there is no such camera in it.
+        """
+        if isinstance(self._camera, View):
+            return self._camera
+        if self._camera is not None:
+            return _named(self._camera, frame)
+        found = camera_of(frame)
+        if found is not None:
+            return found
+        if self._holding is None:
+            self._holding = holding(self._points, aspect=self._aspect)
+        return self._holding
 
 
 def seen(
@@ -37,21 +93,15 @@ def seen(
     if parameters:
         given = given.moved({name: given.control(name).encode(value) for name, value in parameters.items()})
     frame = given.scene.at(t, **given.values)
-    if bounds is None:
-        points = outermost(given.scene.at(other, **given.values) for other in instants(*given.times))
-        points = np.concatenate([points, outermost([frame])])
-    else:
-        points = np.array(list(itertools.product(*np.asarray(bounds, dtype=np.float64).T)))
-    box = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
-    if camera is None and given.point.camera is not None:
-        camera = dict(zip(("position", "target"), given.point.camera, strict=True))
-    if camera is None:
-        view = camera_of(frame) or holding(points, aspect=aspect)
-    elif isinstance(camera, str):
-        view = _named(camera, frame)
-    else:
-        view = camera if isinstance(camera, View) else _view(camera)
-    return frame, view, box
+    others = (given.scene.at(other, **given.values) for other in instants(*given.times))
+    shot = Shot(
+        [*others, frame] if bounds is None else (),
+        aspect=aspect,
+        camera=camera,
+        place=given.point.camera,
+        bounds=bounds,
+    )
+    return frame, shot.view(frame), shot.bounds
 
 
 def _named(camera: str, frame: Frame) -> View:

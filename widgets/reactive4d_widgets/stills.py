@@ -18,8 +18,6 @@ __all__ = ["poster", "render", "seen", "sized", "theme_of"]
 
 SIZE = (1280, 960)
 LARGEST = 8192  # pixels; beyond it cards have no textures
-FILMS = {".mp4", ".mov", ".webm", ".avi", ".mkv", ".gif", ".apng"}
-MODELS = {".glb", ".gltf", ".usd", ".usda", ".usdz", ".obj", ".stl", ".ply"}
 
 
 def render(
@@ -140,15 +138,5 @@ def theme_of(background: str) -> Theme:
 
 
 def _check_format(path: Path) -> None:
-    end = path.suffix.lower()
-    if end == ".png":
-        return
-    still = f"render({path.with_suffix('.png').name!r}, t=1.5)" if path.stem else "render('still.png', t=1.5)"
-    if end in FILMS:
-        page = path.with_suffix(".html").name
-        error = UnknownNameError(f"{path.name}: films come later")
-        raise hint(error, f"{still} makes a still of one instant, bake({page!r}) a page that moves")
-    if end in MODELS:
-        raise hint(UnknownNameError(f"{path.name}: models of scenes come later"), f"{still} makes a still")
-    what = f"no pictures that end with {end}" if end else "no pictures without an end of their name"
-    raise hint(UnknownNameError(f"{path.name}: {what}"), f"stills are PNG files: {still}")
+    if path.suffix.lower() != ".png":
+        raise hint(UnknownNameError(f"{path.name}: a still is a PNG file"), f"render({path.stem + '.png'!r}, t=1.5)")
