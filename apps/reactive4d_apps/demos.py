@@ -13,6 +13,7 @@ from reactive4d_apps.browsers import chromium, driver, photographed
 from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import summary
 from reactive4d_apps.phrases import paragraph
+from reactive4d_apps.serving.confinements import can_confine
 from reactive4d_widgets.displays import can_draw
 
 __all__ = ["LIVE", "PROSE", "SCRIPT", "TITLE", "demonstrated", "served", "stored"]
@@ -110,7 +111,7 @@ def served(
         Reactive4dError: the server cannot start, or the browser complained about the page.
     """
     scene = stored()
-    options: dict[str, Any] = {"title": TITLE, "text": LIVE, "host": host, "port": port}
+    options: dict[str, Any] = {"title": TITLE, "text": LIVE, "host": host, "port": port, "editable": can_confine()}
     if not check:
         can_end = sys.stdin is not None and sys.stdin.isatty()
         yield from opened(scene, browser=browser, stay=can_end if stay is None else stay, width=width, **options)

@@ -1,9 +1,11 @@
 """A server for each test that wants one; afterwards it has ended, and its thread with it."""
 
+import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -11,8 +13,32 @@ sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder 
 
 pytest.importorskip("trame", reason="pip install '.[trame]'")
 
+from reactive4d_apps.browsers import FLAGS, chromium, driver
 from reactive4d_apps.serving import Limits, Server, serve
 from reactive4d_apps.serving.halls import Hall
+
+ALIVE = "() => { const all = [...document.querySelectorAll('r4d-figure')]; return all.every((f) => f.snapshot) }"
+# What is on its way, the most that ever was.
+COUNTING = """(() => {
+  window.asks = { now: 0, most: 0, all: 0 };
+  window.WebSocket = class extends WebSocket {
+    constructor(...given) {
+      super(...given);
+      this.addEventListener("message", ({ data }) => {
+        const text = typeof data === "string" ? data : new TextDecoder().decode(data);
+        if (text.includes('"type":"answer"')) window.asks.now--;
+      });
+    }
+
+    send(text) {
+      if (JSON.parse(text).type === "ask") {
+        window.asks.all++;
+        window.asks.most = Math.max(window.asks.most, ++window.asks.now);
+      }
+      super.send(text);
+    }
+  };
+})()"""
 
 
 @pytest.fixture
@@ -43,3 +69,50 @@ def answered() -> Iterator[Callable[..., Server]]:
     for server in servers:
         server.close()
         assert not server.is_running
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Chromium, for the tests of this file."""
+    path, playing = chromium(), driver()
+    if path is None or playing is None:
+        (pytest.fail if os.environ.get("CI") else pytest.skip)("there is no Chromium here, or no Playwright")
+    with playing.sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def read(browser: Any) -> Iterator[Callable[..., Any]]:
+    """Open an address; afterwards nothing else was asked for anything, and nothing was complained about."""
+    contexts, left, said = [], [], []
+    forgiven: list[str] = []
+
+    def opened(
+        address: str, *, point: str = "", forgive: str = "", live: bool = True, size: tuple[int, int] = (1000, 900)
+    ) -> Any:
+        forgiven.extend([forgive] if forgive else [])
+        contexts.append(browser.new_context(viewport={"width": size[0], "height": size[1]}))
+        page = contexts[-1].new_page()
+        page.add_init_script(COUNTING)
+        home = urlsplit(address).netloc
+
+        def note(url: str) -> None:
+            if urlsplit(url).netloc != home and not url.startswith(("blob:", "data:")):
+                left.append(url)
+
+        page.on("request", lambda request: note(request.url))
+        page.on("websocket", lambda line: note(line.url))
+        page.on("console", lambda line: said.append(line.text) if line.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.goto(address + (f"#{point}" if point else ""))
+        if live:
+            page.wait_for_function(ALIVE)
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert left == []
+    assert [text for text in said if not any(part in text for part in forgiven)] == []

@@ -1,18 +1,12 @@
 """The served page in a browser: a reader drives it, and nothing but the server is asked for anything."""
 
-import os
-from collections.abc import Callable, Iterator
 from typing import Any
-from urllib.parse import urlsplit
 
 import numpy as np
-import pytest
 from clients import Pendulum, origin_of
 
 import reactive4d as r4
-from reactive4d_apps.browsers import FLAGS, chromium, driver
 
-ALIVE = "() => { const all = [...document.querySelectorAll('r4d-figure')]; return all.every((f) => f.snapshot) }"
 RESTED = """([name, time, length]) => {
   const { snapshot } = document.querySelector(`r4d-figure[name="${name}"]`);
   return snapshot && snapshot.time === time && snapshot.parameters.length === length;
@@ -26,27 +20,6 @@ DRAG = """async ([name, steps]) => {
     if (k % 10 === 0) await new Promise((done) => { setTimeout(done, 0); });
   }
 }"""
-# What is on its way, the most that ever was.
-COUNTING = """(() => {
-  window.asks = { now: 0, most: 0, all: 0 };
-  window.WebSocket = class extends WebSocket {
-    constructor(...given) {
-      super(...given);
-      this.addEventListener("message", ({ data }) => {
-        const text = typeof data === "string" ? data : new TextDecoder().decode(data);
-        if (text.includes('"type":"answer"')) window.asks.now--;
-      });
-    }
-
-    send(text) {
-      if (JSON.parse(text).type === "ask") {
-        window.asks.all++;
-        window.asks.most = Math.max(window.asks.most, ++window.asks.now);
-      }
-      super.send(text);
-    }
-  };
-})()"""
 
 
 class Opaque(Pendulum):
@@ -60,51 +33,6 @@ class Opaque(Pendulum):
         bob = r4.Sphere(radius=0.1, segments=8)
         bob.translate(r4.vec(0, 0, low(r4.time, self.signals.length)))
         return r4.Scene(bob=bob)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """Chromium, for the tests of this file."""
-    path, playing = chromium(), driver()
-    if path is None or playing is None:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("there is no Chromium here, or no Playwright")
-    with playing.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        yield started
-        started.close()
-
-
-@pytest.fixture
-def read(browser: Any) -> Iterator[Callable[..., Any]]:
-    """Open an address; afterwards nothing else was asked for anything, and nothing was complained about."""
-    contexts, left, said = [], [], []
-    forgiven: list[str] = []
-
-    def opened(address: str, *, point: str = "", forgive: str = "", live: bool = True) -> Any:
-        forgiven.extend([forgive] if forgive else [])
-        contexts.append(browser.new_context(viewport={"width": 1000, "height": 900}))
-        page = contexts[-1].new_page()
-        page.add_init_script(COUNTING)
-        home = urlsplit(address).netloc
-
-        def note(url: str) -> None:
-            if urlsplit(url).netloc != home and not url.startswith(("blob:", "data:")):
-                left.append(url)
-
-        page.on("request", lambda request: note(request.url))
-        page.on("websocket", lambda line: note(line.url))
-        page.on("console", lambda line: said.append(line.text) if line.type in ("error", "warning") else None)
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.goto(address + (f"#{point}" if point else ""))
-        if live:
-            page.wait_for_function(ALIVE)
-        return page
-
-    yield opened
-    for context in contexts:
-        context.close()
-    assert left == []
-    assert [text for text in said if not any(part in text for part in forgiven)] == []
 
 
 def rested(page: Any, name: str, time: float, length: float) -> np.ndarray:

@@ -1,19 +1,36 @@
 """The page that is served is laid out as a baked one is, and refuses the same."""
 
 from collections.abc import Callable
-from urllib.error import HTTPError
-from urllib.request import urlopen
+from typing import Any
 
 import pytest
 
 import reactive4d as r4
+from reactive4d.errors import ShapeError, UnknownNameError
 from reactive4d_apps.serving import Server
 
 
-def test_figures_that_follow_each_other_are_no_page(served: Callable[..., Server], caplog: pytest.LogCaptureFixture):
-    """Neither is there for the other to follow; the log says which one it is, as baking does."""
+def test_figures_that_follow_each_other_are_no_page(served: Callable[..., Server]) -> None:
+    """Neither is there for the other to follow; nothing is served."""
     ball, box = r4.Scene(ball=r4.Sphere()), r4.Scene(box=r4.Box())
-    server = served(r4.Page("", one=r4.Figure(ball, follow="two"), two=r4.Figure(box, follow="one")))
-    with pytest.raises(HTTPError, match="500"):
-        urlopen(server.address)
-    assert "the figure 'one' follows itself" in caplog.text
+    with pytest.raises(ShapeError, match="the figure 'one' follows itself"):
+        served(r4.Page("", one=r4.Figure(ball, follow="two"), two=r4.Figure(box, follow="one")))
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"text": "{widht}"}, "unknown parameter or value 'widht'"),
+        ({"text": "[a](#bal)"}, "unknown object 'bal'"),
+        ({"text": r"$\sni x$"}, "unknown command"),
+        ({"text": 3}, "text: expected a text, got 3"),
+        ({"title": 3}, "title: expected a text, got 3"),
+        ({"theme": "pink"}, "'pink' is none of its values"),
+    ],
+)
+def test_a_mistake_in_the_text_is_told_to_whoever_serves_it(
+    given: dict[str, Any], told: str, served: Callable[..., Server]
+) -> None:
+    """And not, as an error of the server, to its first reader."""
+    with pytest.raises((UnknownNameError, ShapeError), match=told):
+        served(r4.Scene(ball=r4.Sphere()), **given)

@@ -1,6 +1,7 @@
 """Documents: the page that is served: prose and figures as in a baked page, but the figures ask."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from html import escape
 from typing import Any
 
@@ -17,6 +18,22 @@ __all__ = ["Opening", "document", "files"]
 START = b'import { serve } from "./r4d.mjs";\nserve(document);\n'
 
 
+@dataclass(slots=True)
+class Editable(Shown):
+    """A figure with the script below it that its reader may edit.
+
+    Attributes:
+        script: the text.
+    """
+
+    script: str = ""
+
+    def html(self, caption: str, alt: str | None) -> str:
+        """The figure as it stands in a page, and its script."""
+        pre = f"<pre>\n{escape(self.script, quote=False)}</pre>"
+        return f'{Shown.html(self, caption, alt)}\n<r4d-script figure="{escape(self.name)}">{pre}</r4d-script>'
+
+
 class Opening:
     """A figure as it is where it opens: enough for the text around it and for its picture.
 
@@ -26,13 +43,20 @@ class Opening:
         plan: of its model.
         manifest: of its model.
         segments: what its values and its alternative text are where it opens.
+        script: that its reader may edit; None if there is none.
     """
 
     def __init__(
-        self, name: str, figure: Figure, plan: Plan, manifest: dict[str, Any], segments: list[dict[str, Any]]
+        self,
+        name: str,
+        figure: Figure,
+        plan: Plan,
+        manifest: dict[str, Any],
+        segments: list[dict[str, Any]],
+        script: str | None = None,
     ) -> None:
-        table = Table(manifest, segments, [])
-        self.shown = Shown(name, figure.title, figure.thing, plan, table, name, figure.follow)
+        said = (name, figure.title, figure.thing, plan, Table(manifest, segments, []), name, figure.follow)
+        self.shown = Shown(*said) if script is None else Editable(*said, script=script)
 
 
 def files() -> dict[str, tuple[str, bytes]]:

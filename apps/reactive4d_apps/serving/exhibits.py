@@ -62,8 +62,8 @@ class Exhibit:
         """A reader, who opens the figure."""
         return _Guest(self, tell)
 
-    def opening(self) -> Opening:
-        """What the page says of it before it lives."""
+    def opening(self, script: str | None = None) -> Opening:
+        """What the page says of it before it lives; with the script that its reader may edit."""
         guest = _Guest(self, None)
         try:
             manifest: Any = guest.said({"type": "open"})["manifest"]
@@ -73,7 +73,7 @@ class Exhibit:
             answer = guest.said({"type": "ask", "parameters": point["parameters"], **ask})
         finally:
             guest.close()
-        return Opening(self.name, self.figure, self.model.plan, manifest, answer["segments"])
+        return Opening(self.name, self.figure, self.model.plan, manifest, answer["segments"], script)
 
 
 class _Guest:

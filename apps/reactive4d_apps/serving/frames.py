@@ -10,13 +10,25 @@ from typing import Any, NoReturn
 
 from reactive4d.errors import Reactive4dError
 
-__all__ = ["FrameError", "packed", "unpacked"]
+__all__ = ["FrameError", "Sealed", "packed", "unpacked"]
 
 _LENGTH = struct.Struct("<I")
 
 
 class FrameError(Reactive4dError):
     """What came is no message; the text may be told to whoever sent it."""
+
+
+class Sealed(dict[str, Any]):
+    """A message that somebody else packed; what has to be known of it stands in it.
+
+    >>> packed(Sealed('{"type":"answer"}', type="answer"))
+    '{"type":"answer"}'
+    """
+
+    def __init__(self, data: str | bytes, **known: Any) -> None:
+        super().__init__(known)
+        self.data = data
 
 
 def packed(message: dict[str, Any], buffers: list[bytes] | None = None) -> str | bytes:
@@ -30,6 +42,8 @@ def packed(message: dict[str, Any], buffers: list[bytes] | None = None) -> str |
     >>> packed({"data": {"buffer": 0}}, [b"ab"])
     b'#\x00\x00\x00{"data":{"buffer":0},"buffers":[2]}ab'
     """
+    if isinstance(message, Sealed):
+        return message.data
     if not buffers:
         return _text(message)
     head = _text({**message, "buffers": [len(part) for part in buffers]}).encode()

@@ -1,7 +1,8 @@
 """Halls: what is shown to many readers, and the addresses under which it is had.
 
 All addresses begin with the token of the run, so everything that a page asks for stands relative to the page:
-`/TOKEN/` is the page, `/TOKEN/live/pendulum` the socket of one of its figures, and there are three files.
+`/TOKEN/` is the page, `/TOKEN/live/pendulum` the socket of one of its figures, `/TOKEN/copy/pendulum` that of a private
+copy of it where there may be one, and there are three files.
 """
 
 import asyncio
@@ -13,14 +14,16 @@ from typing import Any
 from aiohttp import WebSocketError, WSCloseCode, web
 
 from reactive4d_apps.serving.buckets import Bucket
+from reactive4d_apps.serving.copies import Copy, Original
 from reactive4d_apps.serving.doors import Door, is_loopback, token
 from reactive4d_apps.serving.limits import Limits
-from reactive4d_apps.serving.lines import Answers, Line
+from reactive4d_apps.serving.lines import ASKED, EDITED, Answers, Line
 from reactive4d_apps.serving.workers import Workers
 
 __all__ = ["Hall"]
 
 LOG = logging.getLogger("reactive4d.serving")
+FULL = 4002  # the code with which a connection ends for which there is no private copy left
 Opened = Callable[[Callable[[dict[str, Any]], None]], Answers]
 
 HEADERS = {
@@ -43,6 +46,7 @@ class Hall:
         page: makes the HTML; it is called once, in a thread, when somebody first wants it.
         files: by name, with the type of each: what the page asks for besides.
         figures: by name: from what is to be called with news to who answers one reader.
+        originals: by name: figures of which a reader may have a private copy.
         host: to which the server is bound.
         origins: further origins whose pages may call.
         limits: what is bounded.
@@ -54,6 +58,7 @@ class Hall:
         files: Mapping[str, tuple[str, bytes]],
         figures: Mapping[str, Opened],
         *,
+        originals: Mapping[str, Original] | None = None,
         host: str = "127.0.0.1",
         origins: Collection[str] = (),
         limits: Limits | None = None,
@@ -62,11 +67,14 @@ class Hall:
         self.limits = limits or Limits()
         self.door = Door(self.token, is_loopback(host), frozenset(origins))
         self.figures = dict(figures)
+        self.originals = dict(originals or {})
+        self.copies: set[Copy] = set()
         self.lines: set[Line] = set()
         self._files = dict(files)
         self._page = page
         self._made: asyncio.Task[str] | None = None
         self._workers: Workers | None = None
+        self._copyists: Workers | None = None
         self._numbers = itertools.count(1)
         self._lines_of_log = Bucket(1.0, 100.0)
         self._open = 0
@@ -75,17 +83,20 @@ class Hall:
         """Add the addresses to a server that has not started, and end with it."""
         app.router.add_get("/{token}/", self._get_page)
         app.router.add_get("/{token}/live/{figure}", self._get_line)
+        app.router.add_get("/{token}/copy/{figure}", self._get_copy)
         app.router.add_get("/{token}/{file}", self._get_file)
         app.on_startup.append(self._begin)
         app.on_shutdown.append(self._finish)
 
     async def _begin(self, app: web.Application) -> None:
         self._workers = Workers(self.limits.threads)
+        self._copyists = Workers(max(1, self.limits.copies))  # who waits for a copy keeps no other reader waiting
 
     async def _finish(self, app: web.Application) -> None:
         await asyncio.gather(*[line.end(WSCloseCode.GOING_AWAY, b"the server ends") for line in [*self.lines]])
-        if self._workers is not None:
-            self._workers.close()
+        for workers in (self._workers, self._copyists):
+            if workers is not None:
+                workers.close()
 
     # -- addresses -------------------------------------------------------------------------------------------------
 
@@ -113,9 +124,53 @@ class Hall:
         answers = self.figures.get(name)
         if answers is None:
             raise self._refused(request, f"there is no figure {name[:40]!r}", web.HTTPNotFound)
+        return await self._talk(request, f"reader {{}} of {name}", answers, self._workers)
+
+    async def _get_copy(self, request: web.Request) -> web.StreamResponse:
+        self._admit(request, must_tell=True)
+        name = request.match_info["figure"]
+        one = self.originals.get(name)
+        if one is None:
+            raise self._refused(request, f"there are no copies of {name[:40]!r}", web.HTTPNotFound)
+        if len(self.copies) >= self.limits.copies:
+            return await self._full(request)
+        copy = Copy(one, self.limits)
+        self.copies.add(copy)
+        try:
+            return await self._talk(
+                request,
+                f"copy {{}} of {name}",
+                lambda tell: copy,
+                self._copyists,
+                asked=EDITED,
+                idle=self.limits.copy_idle,
+            )
+        finally:
+            self.copies.discard(copy)
+            copy.close()
+
+    async def _full(self, request: web.Request) -> web.StreamResponse:
+        """Let the reader's page know why; a refused connection tells a page nothing."""
+        LOG.warning("a call from %s is refused: more than %d copies", request.remote, self.limits.copies)
+        socket = web.WebSocketResponse(max_msg_size=self.limits.message, timeout=1.0)
+        await socket.prepare(request)
+        await socket.close(code=FULL, message=f"all {self.limits.copies} private copies are taken".encode())
+        return socket
+
+    async def _talk(
+        self,
+        request: web.Request,
+        called: str,
+        answers: Opened,
+        workers: Workers | None,
+        *,
+        asked: frozenset[str] = ASKED,
+        idle: float | None = None,
+    ) -> web.StreamResponse:
+        """Open a connection and keep it until it ends."""
         if self._open >= self.limits.readers:
             raise self._refused(request, f"more than {self.limits.readers} readers", web.HTTPServiceUnavailable)
-        assert self._workers is not None, "the server has started"
+        assert workers is not None, "the server has started"
         socket = web.WebSocketResponse(
             max_msg_size=self.limits.message,
             heartbeat=self.limits.pulse,
@@ -126,10 +181,9 @@ class Hall:
         line: Line | None = None
         try:
             await socket.prepare(request)
-            number, transport = next(self._numbers), request.transport
-            title = f"reader {number} of {name}"
+            title, transport = called.format(next(self._numbers)), request.transport
             abort = transport.abort if transport is not None else _nothing
-            line = Line(socket, answers, self._workers.turns(), self.limits, title, abort)
+            line = Line(socket, answers, workers.turns(), self.limits, title, abort, asked=asked, idle=idle)
             self.lines.add(line)
             LOG.info("%s comes from %s", title, request.remote)
             await line.run()

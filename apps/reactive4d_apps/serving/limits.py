@@ -20,6 +20,12 @@ class Limits:
         sending: seconds within which a reader must take what is sent to them; else the connection is ended.
         pulse: seconds between two signs of life that are asked of a silent reader.
         threads: in which is evaluated.
+        copies: private copies at one time, all readers together; whoever wants one more is told to wait.
+        script: letters of one that a reader sends.
+        copy_memory: bytes that a private copy may take beyond what an empty one does.
+        copy_thinking: seconds after which a private copy is ended that has no answer.
+        copy_computing: seconds that a private copy may compute in all.
+        copy_idle: seconds after which a private copy is ended that nobody asks for anything.
 
     >>> Limits(readers=10).asks
     2
@@ -35,3 +41,9 @@ class Limits:
     sending: float = 20.0
     pulse: float = 20.0
     threads: int = 4
+    copies: int = 8
+    script: int = 200_000
+    copy_memory: int = 512 * 2**20
+    copy_thinking: float = 10.0
+    copy_computing: float = 300.0
+    copy_idle: float = 900.0

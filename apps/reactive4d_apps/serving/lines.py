@@ -7,6 +7,7 @@ do not take in time is not kept for them. Nothing of it waits for another reader
 import asyncio
 import contextlib
 import logging
+import time
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -17,20 +18,30 @@ from reactive4d_apps.serving.frames import FrameError, packed, unpacked
 from reactive4d_apps.serving.limits import Limits
 from reactive4d_apps.serving.workers import SlowError, Turns
 
-__all__ = ["Answers", "Line"]
+__all__ = ["ASKED", "EDITED", "ENDED", "Answers", "GoneError", "Line"]
 
 LOG = logging.getLogger("reactive4d.serving")
 ASKED = frozenset({"open", "ask", "need"})
+EDITED = ASKED | {"script"}
+ENDED = 4001  # the code with which a connection ends whose private copy is no more
 SILENT = frozenset({"dropped"})
 MOST_SPANS = 10_000  # of news that wait; beyond, the reader opens again
 PIECE = 16_384  # bytes; a message counts as one, and one more for each of these
+
+
+class GoneError(Exception):
+    """Whoever answered does so no more; the text says why, for their reader."""
 
 
 class Answers(Protocol):
     """Who answers one reader, as `reactive4d_widgets.live.Reader` does."""
 
     def receive(self, message: Any, /) -> tuple[dict[str, Any] | None, list[bytes]]:
-        """The reply to a message, with the bytes that travel beside it; never an exception for what was sent."""
+        """The reply to a message, with the bytes that travel beside it; never an exception for what was sent.
+
+        Raises:
+            GoneError: there will be no answer any more.
+        """
         ...
 
     def close(self) -> None:
@@ -48,6 +59,8 @@ class Line:
         limits: what is bounded.
         name: how the log calls it.
         abort: cuts the connection, whatever is still to be sent.
+        asked: the kinds of messages that are answered.
+        idle: seconds after which it ends if nothing is heard; None: never.
 
     Attributes:
         heard: how many messages were read.
@@ -61,12 +74,18 @@ class Line:
         limits: Limits,
         name: str,
         abort: Callable[[], None],
+        *,
+        asked: frozenset[str] = ASKED,
+        idle: float | None = None,
     ) -> None:
         self.socket = socket
         self._abort = abort
         self.turns = turns
         self.limits = limits
         self.name = name
+        self.asked = asked
+        self.idle = idle
+        self._heard_at = time.monotonic()
         self._loop = asyncio.get_running_loop()
         self._bucket = Bucket(limits.rate, limits.burst)
         self._lines_of_log = Bucket(0.2, 30.0)
@@ -83,12 +102,13 @@ class Line:
     async def run(self) -> None:
         """Serve the reader until they go, or have to."""
         herald = asyncio.create_task(self._herald())
+        watch = asyncio.create_task(self._watch())
         try:
             async for message in self.socket:
                 if not await self._hear(message.type, message.data):
                     break
         finally:
-            for task in (herald, *self._working):
+            for task in (herald, watch, *self._working):
                 task.cancel()
             self._answers.close()
 
@@ -100,6 +120,7 @@ class Line:
         if wait:
             await asyncio.sleep(wait)
         self.heard += 1
+        self._heard_at = time.monotonic()
         try:
             if kind is not WSMsgType.TEXT:
                 raise FrameError("expected a text")
@@ -110,7 +131,7 @@ class Line:
         if isinstance(word, str) and word in SILENT:
             await self._quietly(message)
             return True
-        if not (isinstance(word, str) and word in ASKED):
+        if not (isinstance(word, str) and word in self.asked):
             told = f"an unknown message, {word[:40]!r}" if isinstance(word, str) else "a message without a type"
             return await self._refuse(_number(message), told)
         if self._asked >= self.limits.asks:
@@ -144,6 +165,8 @@ class Line:
             await self.turns.run(lambda: self._answers.receive(message), self.limits.thinking)
         except SlowError:
             self._warn("has to wait")
+        except GoneError as error:
+            await self.go(str(error))
         except Exception:  # a mistake of ours must not end what others have
             LOG.exception("%s: not noted", self.name)
 
@@ -154,6 +177,9 @@ class Line:
         except SlowError as error:
             self._warn(str(error))
             reply, buffers = {"id": number, "type": "error", "text": str(error)}, []
+        except GoneError as error:
+            await self.go(str(error))
+            return
         except Exception:  # a mistake of ours must not end what others have
             LOG.exception("%s: no answer", self.name)
             reply, buffers = {"id": number, "type": "error", "text": "this went wrong on the server; see its log"}, []
@@ -205,7 +231,21 @@ class Line:
             self._has_news.clear()
             await self._send(None)
 
+    async def _watch(self) -> None:
+        """End what nobody uses."""
+        while self.idle is not None:
+            left = self._heard_at + self.idle - time.monotonic()
+            if left <= 0.0 and not self._working:
+                await self.go(f"nobody asked it for anything for {self.idle:g} s")
+                return
+            await asyncio.sleep(max(left, 0.1))
+
     # -- the end ---------------------------------------------------------------------------------------------------
+
+    async def go(self, reason: str) -> None:
+        """End, since whoever answered is no more; the reader is told why."""
+        LOG.warning("%s: ended, %s", self.name, reason)
+        await self.end(ENDED, reason.encode()[:120])
 
     async def end(self, code: int, reason: bytes) -> None:
         """Say good-bye, but do not wait for an answer."""

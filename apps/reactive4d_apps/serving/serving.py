@@ -3,6 +3,7 @@
 import inspect
 import sys
 from collections.abc import Collection, Mapping
+from functools import partial
 from typing import Any
 
 from reactive4d.errors import unknown
@@ -12,7 +13,11 @@ from reactive4d_apps.serving.documents import document, files
 from reactive4d_apps.serving.exhibits import Exhibit
 from reactive4d_apps.serving.halls import Hall
 from reactive4d_apps.serving.limits import Limits
+from reactive4d_apps.serving.scripts import originals_of
 from reactive4d_apps.serving.servers import Server
+from reactive4d_widgets.figures import checked_options
+from reactive4d_widgets.pages import refuse_wrong_words
+from reactive4d_widgets.proofs import proofread
 
 __all__ = ["serve"]
 
@@ -29,6 +34,7 @@ def serve(
     title: str | None = None,
     lang: str = "en",
     theme: str = "auto",
+    editable: bool = False,
     options: Mapping[str, Any] | None = None,
     parameters: Mapping[str, Any] | None = None,
     origins: Collection[str] = (),
@@ -50,6 +56,7 @@ def serve(
         title: of the page; otherwise its first heading, or what the subject is called.
         lang: of the text, as in HTML.
         theme: "light", "dark", or "auto": as the reader's system is.
+        editable: whether readers may edit the scripts of scenes, each in a private copy that nobody else sees.
         options: how figures are shown at first: theme, height, loop, autoplay, edges, shading, ground, axes, grid,
             shadows, playing.
         parameters: values by name, for parameters that are called like one of these arguments.
@@ -61,9 +68,11 @@ def serve(
         The server: its `address`, and `close()`.
 
     Raises:
-        UnknownNameError: a parameter or an option that nobody knows.
+        UnknownNameError: a parameter, an option, or something in the text that nobody knows.
+        ShapeError: something else that is not what it should be, such as a formula in the text.
         ParameterError: a value that its parameter does not admit.
-        Reactive4dError: the port is taken, the scene is empty, or the viewer was not built.
+        NotWritableError: a scene is to be editable that no script can say.
+        Reactive4dError: the port is taken, the scene is empty, the viewer was not built, or nothing can be edited.
 
     >>> import reactive4d as r4
     >>> with serve(r4.Scene(ball=r4.Sphere()), block=False) as server:
@@ -78,14 +87,23 @@ def serve(
         if name not in known:
             raise unknown(name, known, what="parameter")
     prose = text if text is not None else page.text if page is not None else _said_of(subject)
+    refuse_wrong_words(prose, title, lang)
+    checked_options({"theme": theme}, {})
     exhibits = {
         name: Exhibit(name, figure, times=times, values=given, options=options) for name, figure in figures.items()
     }
-    openings = {name: exhibit.opening for name, exhibit in exhibits.items()}
+    plans = {name: exhibit.model.plan for name, exhibit in exhibits.items()}
+    proofread(prose, plans, {name: figure.follow for name, figure in figures.items()})
+    originals = originals_of(exhibits) if editable else {}
+    openings = {
+        name: partial(exhibit.opening, originals[name].script if name in originals else None)
+        for name, exhibit in exhibits.items()
+    }
     hall = Hall(
         lambda: document(openings, prose, title=title, lang=lang, theme=theme),
         files(),
         {name: exhibit.open for name, exhibit in exhibits.items()},
+        originals=originals,
         host=host,
         origins=origins,
         limits=limits,

@@ -29,6 +29,7 @@ class Herald:
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
         self._is_listening = False
+        self._rests = False
 
     @property
     def is_awake(self) -> bool:
@@ -51,6 +52,11 @@ class Herald:
         if self._thread is None:
             self._wake()
 
+    def rest(self) -> None:
+        """Tell nothing unasked from now on, and start no thread: for who edits nothing, or may have no threads."""
+        with self._lock:
+            self._is_listening = self._rests = True
+
     def wake(self) -> None:
         """Tell now, on the herald's own thread."""
         self._heard.set()
@@ -58,7 +64,7 @@ class Herald:
 
     def _wake(self) -> None:
         with self._lock:
-            if self._thread is None:
+            if self._thread is None and not self._rests:
                 self._thread = threading.Thread(target=self._run, name="reactive4d-herald", daemon=True)
                 self._thread.start()
 

@@ -5,14 +5,21 @@
  */
 
 import { socket } from "../transports/socket.js";
+import { ScriptElement } from "../ui/script-element.js";
 import { Addresses } from "./addresses.js";
+import { editable } from "./copies.js";
 import { define } from "./page.js";
 
 /** @typedef {import("../ui/figure-element.js").FigureElement} FigureElement */
 
-/** Where a figure asks, from where its page is. @param {string} base @param {string} name */
-export function lineOf(base, name) {
-  const address = new URL(`live/${encodeURIComponent(name)}`, base);
+/**
+ * Where a figure asks, from where its page is.
+ * @param {string} base
+ * @param {string} name
+ * @param {"live" | "copy"} [way] the model that all share, or a private copy
+ */
+export function lineOf(base, name, way = "live") {
+  const address = new URL(`${way}/${encodeURIComponent(name)}`, base);
   address.protocol = address.protocol.replace("http", "ws");
   address.hash = "";
   return address.href;
@@ -45,6 +52,13 @@ export function serve(page) {
     figure.addresses = addresses;
     figure.addEventListener("r4d-live", () => addresses.open(figure), { once: true });
     connect(figure, lineOf(page.baseURI, figure.name));
+  }
+  if (!customElements.get("r4d-script")) customElements.define("r4d-script", ScriptElement);
+  for (const element of /** @type {NodeListOf<ScriptElement>} */ (page.querySelectorAll("r4d-script"))) {
+    const figure = figures().find(({ name }) => name === element.getAttribute("figure"));
+    if (figure === undefined) continue;
+    const share = () => connect(figure, lineOf(page.baseURI, figure.name));
+    editable(figure, element, { copy: lineOf(page.baseURI, figure.name, "copy"), share });
   }
   return figures();
 }

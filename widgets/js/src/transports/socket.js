@@ -24,31 +24,29 @@ import { WireError } from "../core/errors.js";
  * @property {(address: string) => WebSocket} [connect]
  * @property {(act: () => void, ms: number) => any} [later]
  * @property {() => void} [onReopen] the figure has other nodes or controls, and has to be opened again
+ * @property {(reason: string) => void} [onEnded] whoever answered is no more, and will not come again
+ *
+ * @typedef {import("../ui/script-element.js").Problem} Problem
  */
 
 const PAUSES = [250, 500, 1_000, 2_000, 5_000]; // ms until the next attempt
 const MOST_ATTEMPTS = 4; // in a row, until whoever asks is told; it is tried nevertheless
 const MOST_BUFFERS = 100_000;
 const GONE = "The server does not answer.";
+const ENDED = [4001, 4002]; // codes with which a private copy ends: it is no more; there was none left
+const MOST_PROBLEMS = 100;
 
 /**
  * @param {string} address ws://… of the figure
  * @param {Options} [options]
- * @returns {Transport}
+ * @returns {Line}
  */
 export function socket(address, options = {}) {
-  const line = new Line(address, options);
-  return {
-    open: () => line.open(),
-    ask: (ask) => line.ask(ask),
-    onStale: (listener) => line.onStale(listener),
-    dropped: (refs) => line.dropped(refs),
-    need: (refs) => line.need(refs),
-    close: () => line.close(),
-  };
+  return new Line(address, options);
 }
 
-class Line {
+/** @implements {Transport} */
+export class Line {
   #address;
   #connect;
   #later;
@@ -69,13 +67,17 @@ class Line {
   /** What a figure cannot take another one of, as text; empty before it opened. */
   #shape = "";
   #revision = 0;
+  /** The script of a private copy; null where there is none. @type {string|null} */
+  #script = null;
+  #onEnded;
 
   /** @param {string} address @param {Options} options */
-  constructor(address, { connect, later, onReopen }) {
+  constructor(address, { connect, later, onReopen, onEnded }) {
     this.#address = address;
     this.#connect = connect ?? ((where) => new WebSocket(where));
     this.#later = later ?? ((act, ms) => setTimeout(act, ms));
     this.#onReopen = onReopen ?? (() => undefined);
+    this.#onEnded = onEnded ?? (() => undefined);
   }
 
   async open() {
@@ -108,6 +110,21 @@ class Line {
     return (await this.#ask({ type: "need", refs })).blobs;
   }
 
+  /**
+   * Let a private copy say something else from now on; if nothing is wrong with it, it has to be opened again.
+   * @param {string} text
+   * @returns {Promise<Problem[]>}
+   */
+  async edit(text) {
+    const problems = problemsIn(await this.#ask({ type: "script", text }));
+    if (problems.length === 0) {
+      this.#script = text;
+      this.#shape = "";
+      this.#channels.clear();
+    }
+    return problems;
+  }
+
   close() {
     this.#isClosed = true;
     this.#socket?.close();
@@ -137,7 +154,11 @@ class Line {
     this.#socket = line;
     line.onopen = () => this.#begin(line);
     line.onmessage = ({ data }) => { if (line === this.#socket) this.#hear(data); };
-    line.onclose = () => { if (line === this.#socket) this.#dialAgain(); };
+    line.onclose = (event) => {
+      if (line !== this.#socket) return;
+      if (ENDED.includes(event?.code)) this.#end(event.reason || "it has ended");
+      else this.#dialAgain();
+    };
   }
 
   #dialAgain() {
@@ -155,6 +176,14 @@ class Line {
     const waiting = [...this.#asked.values()];
     this.#isOpen = true;
     this.#attempts = 0;
+    if (this.#script !== null) {
+      try {
+        await this.#ask({ type: "script", text: this.#script });
+        if (line !== this.#socket) return;
+      } catch {
+        return; // it broke again, or has ended
+      }
+    }
     if (this.#shape !== "") {
       try {
         const { manifest } = await this.#ask({ type: "open" });
@@ -205,6 +234,15 @@ class Line {
     this.#onReopen();
   }
 
+  /** Nobody answers any more, and nobody will. @param {string} reason */
+  #end(reason) {
+    this.#isClosed = true;
+    this.#socket = null;
+    this.#isOpen = false;
+    this.#lose(new Error(reason));
+    this.#onEnded(reason);
+  }
+
   #giveUp() {
     this.#hasGivenUp = true;
     this.#lose(new Error(GONE));
@@ -216,6 +254,17 @@ class Line {
     this.#asked.clear();
     for (const { reject } of lost) reject(error);
   }
+}
+
+/** What is wrong with a script. @param {any} reply @returns {Problem[]} */
+function problemsIn(reply) {
+  if (reply.type === "edited") return [];
+  const found = list(own(reply, "problems"), "message.problems").slice(0, MOST_PROBLEMS);
+  return found.map((one, i) => {
+    const problem = object(one, `message.problems[${i}]`);
+    const [line, column] = [own(problem, "line"), own(problem, "column")].map((n) => (Number.isInteger(n) ? n : null));
+    return { line, column, text: String(own(problem, "text")) };
+  });
 }
 
 /** @param {any} manifest */

@@ -6,7 +6,7 @@ import { Session } from "../core/session.js";
 import { Stage } from "../render/stages.js";
 import { View } from "../render/views.js";
 import { ElementBase } from "./bases.js";
-import { make, prefers } from "./elements.js";
+import { make, prefers, setAll } from "./elements.js";
 import { bareFor } from "./hashes.js";
 import { Life } from "./lives.js";
 import { figureStyles } from "./figure-styles.js";
@@ -41,6 +41,7 @@ export class FigureElement extends ElementBase {
   #turn = 0;
   /** @type {AbortController | null} */ #attached = null;
   #frame = make("div", { class: "figure" });
+  #mark = make("p", { class: "mark", id: "mark", hidden: true });
   #spoken = make("div", { class: "spoken", role: "status", "aria-live": "polite" });
   /** @type {Addresses | null} */ addresses = null;
   /** @type {Stage | null} */ stage = null;
@@ -48,7 +49,7 @@ export class FigureElement extends ElementBase {
   constructor() {
     super();
     const root = this.attachShadow({ mode: "open" });
-    this.#frame.append(make("slot"));
+    this.#fill(make("slot"));
     root.append(make("style", {}, [figureStyles]), this.#frame, this.#spoken);
   }
 
@@ -140,7 +141,7 @@ export class FigureElement extends ElementBase {
       tell: (name) => this.#tell(name),
     }, this.#spoken);
     this.#life = life;
-    this.#frame.replaceChildren(life.element);
+    this.#fill(life.element);
     this.#frame.setAttribute("role", "group");
     this.#frame.setAttribute("aria-label", this.#title || life.manifest.title || this.name);
     const { height, theme } = life.manifest.options;
@@ -232,11 +233,28 @@ export class FigureElement extends ElementBase {
     }
   }
 
+  /**
+   * Say above the picture that it is another one than that of all others.
+   * @param {string} words nothing is said if there are none
+   * @param {{ name: string, act: () => void }} [way] a button
+   */
+  mark(words, way) {
+    this.#mark.replaceChildren(make("span", {}, [words]));
+    if (way) this.#mark.append(make("button", { type: "button" }, [way.name], { click: way.act }));
+    this.#mark.hidden = words === "";
+    setAll(this.#frame, { "aria-describedby": words ? "mark" : null });
+  }
+
+  /** Put something into the frame, below what is said above it. @param {Node[]} nodes */
+  #fill(...nodes) {
+    this.#frame.replaceChildren(this.#mark, ...nodes);
+  }
+
   /** A sentence in place of what does not work; the poster stays. @param {string} sentence */
   fail(sentence) {
     this.#end();
     const text = make("p", { class: "failure", role: "alert" }, [sentence]);
-    this.#frame.replaceChildren(make("div", { class: "picture" }, [make("slot")]), text);
+    this.#fill(make("div", { class: "picture" }, [make("slot")]), text);
     this.#tell("r4d-failed");
   }
 
@@ -244,7 +262,7 @@ export class FigureElement extends ElementBase {
     this.#turn++;
     this.#life?.dispose();
     this.#life = null;
-    this.#frame.replaceChildren(make("slot"));
+    this.#fill(make("slot"));
   }
 }
 

@@ -82,6 +82,12 @@ export const figureStyles = `
   font-size: 14px; overflow-wrap: anywhere;
 }
 
+.mark {
+  display: flex; align-items: center; gap: 4px 12px; flex-wrap: wrap; margin: 0 0 6px; padding-left: 9px;
+  border-left: 4px solid var(--grip); font-weight: 600;
+}
+.mark button { font-weight: 400; }
+
 /* Buttons and fields */
 button, select, input { font: inherit; color: inherit; }
 button {
