@@ -13,8 +13,9 @@ BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```$)?", re.MULT
 
 
 @pytest.mark.parametrize("page", CHAPTERS, ids=lambda page: page.stem)
-def test_the_programs_of_a_chapter_run_and_print_what_it_says(page: Path):
+def test_the_programs_of_a_chapter_run_and_print_what_it_says(page: Path, tmp_path: Path, monkeypatch: Any):
     """One after the other, each with the names that those before it left."""
+    monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "chapter"}
     blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
     assert blocks

@@ -12,7 +12,7 @@ import pytest
 import reactive4d as r4
 import reactive4d_apps.gallery
 from reactive4d.illustrations import subject
-from reactive4d_apps.gallery import changes, prototypes, signals
+from reactive4d_apps.gallery import changes, pendulums, prototypes, scripts, signals, watching
 from reactive4d_apps.sphinx.wordings import named, times_of
 
 CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "book").glob("[0-9]*.md"))
@@ -147,3 +147,73 @@ def test_the_car_becomes_the_next_model_at_3_and_6_seconds_and_drives_on():
         r4.Interval(6, np.inf),
     ]
     assert car.position.at(4.5)[0] == pytest.approx(0.0)
+
+
+def test_the_printed_script_stands_still_and_the_other_one_moves():
+    """One holds for ever, the other has marks at 2 and 4 seconds."""
+    printed, moving = scripts.Printed().scene, scripts.Moving().scene
+    assert list(printed) == list(moving) == ["sphere", "cube", "light", "camera", "egg"]
+    assert printed["egg"].matrix.valid(0.0) == r4.FOREVER
+    assert [moving["egg"].position.at(t)[2] for t in (0.0, 1.0, 2.0, 4.0)] == [1.0, 1.75, 2.5, 2.5]
+
+
+def test_camera_and_eyes_look_at_what_they_watch():
+    """Along -z, wherever a reader has put the cube or the way of the fly."""
+    frame = watching.CameraAndCube(away=-1.0).at(1.0)
+    house, cube = frame["watching/house"].matrix, frame["cube"].matrix
+    assert np.allclose(directed(house, cube), -house[:3, 2])
+    frame = watching.Watcher(x=-1.0, z=1.5).at(4.0)
+    fly = frame["fly/trunk"].matrix
+    assert np.allclose(fly[:3, 3], (-1.0, -1.2, 1.5))
+    for side in ("left", "right"):
+        eye = frame[f"{side} eye/ball"].matrix
+        assert np.allclose(directed(eye, fly), -eye[:3, 2])
+
+
+def directed(start: Any, stop: Any) -> Any:
+    """(3,), the direction from where one thing is to where the other is."""
+    way = stop[:3, 3] - start[:3, 3]
+    return way / np.linalg.norm(way)
+
+
+def test_the_recording_has_marks_then_answers_from_memory_then_a_cut_off():
+    """Chair and body are reused, the fly and the eyes evaluated, the lamp is not evaluated."""
+    steps = watching.recorded()
+    assert steps[0] == ("edited", "way")
+    happened = {name: [kind for kind, cell in steps if cell == name] for name in watching.BOXES}
+    assert happened["chair.node"] == happened["body.node"] == ["reused"]
+    assert happened["lamp.color"] == ["marked", "validated"]
+    assert happened["(fly.position[2] > 2)"] == ["marked", "evaluated", "cut off"]
+    assert happened["fly.matrix"] == happened["left eye.matrix"] == happened["scene"] == ["marked", "evaluated"]
+    last = max(i for i, (kind, _) in enumerate(steps) if kind == "marked")
+    assert all(kind not in ("evaluated", "reused") for kind, _ in steps[: last + 1])
+    assert watching.Recording().at(20.0)["now"].drawn["text"] == "evaluated: picture"
+
+
+def test_the_period_is_that_of_the_pendulum_on_the_page():
+    """The bob is back after the period that the text tells."""
+    fig = pendulums.Pendulum(length=0.994)
+    period = fig.scene.signals["period"].at(0.0, length=0.994)
+    assert bool(fig.scene.signals["solved"].at(0.0, length=0.994))
+    assert not bool(fig.scene.signals["solved"].at(0.0))
+    assert np.allclose(fig.at(0.0)["bob"].matrix, fig.at(float(period))["bob"].matrix)
+
+
+def test_gears_roll_on_each_other_and_never_meet():
+    """No point of the one lies within the other, whatever the number of teeth; the rims are equally fast."""
+    for teeth in (8, 13, 20):
+        scene = pendulums.Gears(teeth=teeth).scene
+        first, second = scene["first"], scene["second"]
+        for t in (0.0, 0.4, 1.7):
+            common = r4.Combination([first, "&", second])
+            assert common.volume.at(t, teeth=teeth) < 0.01 * second.volume.at(t, teeth=teeth)
+
+
+def test_what_is_squashed_keeps_its_volume():
+    """Flat on the ground, round in the air."""
+    scene = pendulums.Bounce().scene
+    ball = scene["ball"]
+    assert ball.volume.at(0.0) == pytest.approx(ball.volume.at(0.5), rel=1e-5)
+    assert np.ptp(ball.bounds.at(0.0), axis=0)[2] == pytest.approx(0.5, abs=1e-4)
+    assert np.ptp(ball.bounds.at(0.5), axis=0)[2] == pytest.approx(1.0, abs=1e-4)
+    assert ball.bounds.at(0.0)[0, 2] == pytest.approx(0.0, abs=1e-4)

@@ -16,7 +16,7 @@ ORDERS: list[str] = ["bend, then twist", "twist, then bend"]
 class Stack(r4.Illustration):
     """A tube with a bend and a twist, and the list of both, whose order and switches a reader changes."""
 
-    order: Any = param.Selector(default=ORDERS[0], objects=ORDERS)
+    order: "param.Selector[Any]" = param.Selector(default=ORDERS[0], objects=ORDERS)
     bend = param.Number(90.0, bounds=(0, 120), doc="angle of the bend [deg]")
     twist = param.Number(120.0, bounds=(0, 240), doc="angle of the twist [deg]")
     bends = param.Boolean(True, doc="whether the bend acts")
