@@ -20,6 +20,7 @@ from .reports import Section, conditions, data, markdown, text, verdicts
 from .runs import Run
 from .sampling import sampling
 from .scenes import held_scene
+from .serving import serving
 from .sweeping import sweeping
 
 BENCHMARKS = {
@@ -34,6 +35,7 @@ BENCHMARKS = {
     "deforming": deforming,
     "modelling": modelling,
     "pages": paging,
+    "serving": serving,
     "sweeps": sweeping,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
