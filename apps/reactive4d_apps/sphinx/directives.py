@@ -23,6 +23,16 @@ def _size(argument: str) -> str:
     return directives.choice(argument, SIZES)
 
 
+def first_line(directive: SphinxDirective) -> int:
+    """The line of the page in which the content of a directive begins.
+
+    MyST counts from the directive, reStructuredText from the page.
+    """
+    offset = directive.content_offset
+    is_markdown = type(directive.state).__module__.startswith("myst_parser")
+    return (directive.lineno if is_markdown else 0) + offset + 1
+
+
 class IllustrationDirective(SphinxDirective):
     """A figure that a reader drives. What it shows and where it opens is found out when the page was read."""
 
@@ -58,7 +68,7 @@ class IllustrationDirective(SphinxDirective):
         live["besides"] = [self._path(word) for word in (given.get("depends") or "").split()]
         live["code_at"] = given.get("code") or ("none" if place else "above")
         live["program"] = "" if place else "\n".join(self.content)
-        live["program_line"] = self.content_offset + 1
+        live["program_line"] = first_line(self)
         live["page"] = str(self.env.doc2path(self.env.docname))
         figure += live
         figure["classes"] += ["r4d", f"r4d-{given.get('size', 'wide')}", *given.get("class", [])]
@@ -76,7 +86,7 @@ class IllustrationDirective(SphinxDirective):
         text = self.options.get("caption")
         line = self.lineno
         if text is None and place:
-            text, line = "\n".join(self.content), self.content_offset + 1
+            text, line = "\n".join(self.content), first_line(self)
         if not text or not text.strip():
             return []
         found, messages = self.state.inline_text(text, line)

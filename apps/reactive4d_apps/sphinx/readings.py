@@ -56,7 +56,7 @@ def told(error: BaseException) -> str:
 class Readings(SphinxTransform):
     """Bakes the figures of a page, and resolves what its text says of them."""
 
-    default_priority = 400  # after what was written is read, before numbers and images are collected
+    default_priority = 205  # before what has no name is given one, and before images are collected
 
     def apply(self, **options: Any) -> None:
         """Go through the page, from top to bottom."""
@@ -75,6 +75,10 @@ class Readings(SphinxTransform):
             elif isinstance(node, Number | Link | Word | Check):
                 self._resolve(node)
 
+    def _warn(self, words: str, where: Any) -> None:
+        self.env.note_reread()  # what is wrong is said again until it is mended
+        LOG.warning("%s", words, location=where, type="illustration")
+
     # -- figures ---------------------------------------------------------------------------------------------------
 
     def _figure(self, node: Illustration) -> None:
@@ -90,8 +94,7 @@ class Readings(SphinxTransform):
             raise
         except Exception as error:  # noqa: BLE001 - the border: whatever an author's program does wrong
             self.failed = True
-            self.env.note_reread()  # what is wrong is said again until it is mended
-            LOG.warning("%s", told(error), location=self._where(node, error, program), type="illustration")
+            self._warn(told(error), self._where(node, error, program))
             figure.parent.replace(figure, nodes.container("", nodes.paragraph("", told(error)), classes=["r4d-failed"]))
 
     def _where(self, node: Illustration, error: BaseException, program: Program | None) -> Any:
@@ -136,7 +139,7 @@ class Readings(SphinxTransform):
         pantry = pantry_of(self.app)
         baking = pantry.baking(wish, limit=self.config.illustration_limit * 1e6)
         for problem in baking.problems:
-            LOG.warning("%s", problem, location=node, type="illustration")
+            self._warn(problem, node)
         for note in baking.notes:
             LOG.info("%s: %s", self.env.docname, note)
         thing = program.thing()
@@ -232,7 +235,7 @@ class Readings(SphinxTransform):
                 error = unknown(
                     wanted, [name for name in self.company.casts if name != cast.name], what="figure to follow"
                 )
-                LOG.warning("%s", told(error), location=node, type="illustration")
+                self._warn(told(error), node)
                 node["follow"] = None
                 continue
             shared = {n: w for n, w in leader.point["parameters"].items() if n in cast.parameters}
@@ -263,7 +266,7 @@ class Readings(SphinxTransform):
         except Reactive4dError as error:
             # Where a figure failed, what is said of it fails as well; once is enough.
             if not self.failed:
-                LOG.warning("%s", told(error), location=node, type="illustration")
+                self._warn(told(error), node)
             words = [nodes.Text(node.astext() or str(node.get("wish", "")))]
             node.parent.replace(node, [] if isinstance(node, Check) else words)
 
