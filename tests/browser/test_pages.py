@@ -63,7 +63,9 @@ def test_a_page_draws_what_it_shows(name: str, read: Read, page_of: PageOf):
     inked = figure.ask(
         """(figure) => {
           const canvas = figure.shadowRoot.querySelector("canvas");
-          const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+          const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+          copy.drawImage(canvas, 0, 0);
+          const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
           let count = 0;
           for (let i = 0; i < data.length; i += 4) {
             const least = Math.min(data[i], data[i + 1], data[i + 2]);

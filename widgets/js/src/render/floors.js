@@ -119,20 +119,24 @@ const FLOOR_FRAGMENT = /* glsl */ `
   }
 
   void main() {
-    float far = length( vPlace );
-    float fade = 1.0 - smoothstep( 0.35, 1.0, far );
     vec2 dark = texture2D( shade, vShadow ).rg;
     float within = step( max( abs( vShadow.x - 0.5 ), abs( vShadow.y - 0.5 ) ), 0.5 );
     float shadowed = shadow * within * clamp( 0.55 * dark.r + 0.5 * dark.g, 0.0, 1.0 );
-    float inked = ruled * fade * max( 0.55 * lines( pitch, 0.9 ), lines( 5.0 * pitch, 1.1 ) );
-    float solid = grounded * fade;
-    vec3 color = mix( ground, rule, inked );
-    float alpha = max( solid, inked );
-    color *= mix( 1.0, 0.0, shadowed );
-    float whole = alpha + shadowed * ( 1.0 - alpha );
-    if ( whole < 0.003 ) discard;
-    gl_FragColor = vec4( color * alpha / whole, whole );
-    #include <colorspace_fragment>
+    #ifdef SEEN
+      float fade = 1.0 - smoothstep( 0.35, 1.0, length( vPlace ) );
+      float inked = ruled * fade * max( 0.55 * lines( pitch, 0.9 ), lines( 5.0 * pitch, 1.1 ) );
+      float solid = grounded * fade;
+      vec3 color = mix( ground, rule, inked );
+      float alpha = max( solid, inked );
+      color *= mix( 1.0, 0.0, shadowed );
+      float whole = alpha + shadowed * ( 1.0 - alpha );
+      if ( whole < 0.003 ) discard;
+      gl_FragColor = vec4( color * alpha / whole, whole );
+      #include <colorspace_fragment>
+    #else
+      if ( shadowed < 0.003 ) discard;
+      gl_FragColor = vec4( 0.0, 0.0, 0.0, shadowed );
+    #endif
   }
 `;
 
@@ -208,6 +212,8 @@ export class Floor {
     pitch: { value: 1 },
   };
   #half = 1;
+  /** how far a floor reaches that is seen */
+  #wide = 1;
   /** @type {Mesh<PlaneGeometry, ShadowMaterial>|null} where the ground shows thrown shadows */
   #screen = null;
 
@@ -220,6 +226,7 @@ export class Floor {
       vertexShader: FLOOR_VERTEX,
       fragmentShader: FLOOR_FRAGMENT,
       uniforms: this.#uniforms,
+      defines: {},
       transparent: true,
       depthWrite: false,
       ...BEHIND,
@@ -231,11 +238,10 @@ export class Floor {
     const tall = high[2] - low[2];
     const size = Math.max(wide, 0.5 * tall, 1e-6);
     this.#half = (0.5 * MARGIN) * size;
-    const extent = 2.2 * Math.max(size, tall);
+    this.#wide = 2.2 * Math.max(size, tall);
     const center = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
     this.#quad.position.set(center[0], center[1], low[2]);
-    this.#quad.scale.set(extent, extent, 1);
-    this.#uniforms.shadowShare.value = extent / this.#half;
+    this.#reach(this.#half);
     this.#uniforms.pitch.value = roundLength(size / 4);
     this.reach = new Vector2(1.1 * Math.max(size, tall), 0.16 * Math.max(0.5 * size, Math.min(size, tall)));
     this.#camera.left = this.#half; // seen from below, right is left
@@ -269,6 +275,18 @@ export class Floor {
     u.rule.value.set(dark ? "#8a8f99" : "#8d8a84");
     this.#quad.visible = ground || grid || shadows;
     this.wanted = shadows;
+    this.#reach(ground || grid ? this.#wide : this.#half); // nothing is drawn where nothing is to be seen
+    const { material } = this.#quad;
+    const isSeen = ground || grid;
+    if (isSeen === "SEEN" in material.defines) return;
+    material.defines = isSeen ? { SEEN: "" } : {};
+    material.needsUpdate = true;
+  }
+
+  /** @param {number} extent */
+  #reach(extent) {
+    this.#quad.scale.set(extent, extent, 1);
+    this.#uniforms.shadowShare.value = extent / this.#half;
   }
 
   wanted = false;

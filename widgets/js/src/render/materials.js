@@ -31,6 +31,7 @@ export function sharedUniforms() {
 
 /** @typedef {ReturnType<typeof sharedUniforms>} SharedUniforms */
 
+const VARYINGS = "flat varying vec4 vTint;\nflat varying vec3 vMarker;";
 const SIDES = { both: DoubleSide, front: FrontSide, back: BackSide };
 
 /** The materials of a page. */
@@ -132,13 +133,13 @@ export class Materials {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, { accent, accent2, rim, rimStrength });
       shader.vertexShader = shader.vertexShader
-        .replace("#include <common>", "#include <common>\nattribute vec4 tint;\nvarying vec4 vTint;")
-        .replace("#include <color_vertex>", "#include <color_vertex>\nvTint = tint;")
+        .replace("#include <common>", `#include <common>\nattribute vec4 tint;\n${VARYINGS}\n${shaders.MARKER}`)
+        .replace("#include <color_vertex>", `#include <color_vertex>\n${shaders.MARKED}`)
         .replace("#include <defaultnormal_vertex>", shaders.NORMAL);
       shader.fragmentShader = shader.fragmentShader
         .replace(
           "#include <common>",
-          `#include <common>\nvarying vec4 vTint;\nuniform vec3 rim;\nuniform float rimStrength;\n${shaders.MARKER}`,
+          `#include <common>\n${VARYINGS}\nuniform vec3 rim;\nuniform float rimStrength;`,
         )
         .replace("#include <normal_fragment_begin>", shaders.SIDE)
         .replace("#include <color_fragment>", `${shaders.MARK}\n#include <color_fragment>`)

@@ -17,12 +17,23 @@ export const MARKER = /* glsl */ `
 `;
 
 export const RIM = /* glsl */ `
-  float grazing = 1.0 - saturate( abs( dot( normal, normalize( vViewPosition ) ) ) );
-  outgoingLight = mix( outgoingLight, rim, rimStrength * grazing * grazing * grazing );
+  float grazing = 1.0 - saturate( abs( dot( normal, geometryViewDir ) ) );
+  float grazing2 = grazing * grazing;
+  outgoingLight = mix( outgoingLight, rim, rimStrength * grazing * grazing2 );
   float clear = 1.0 - diffuseColor.a;
-  float glow = mark * ( 0.1 + ( 0.3 + 0.6 * clear ) * grazing * grazing );
-  outgoingLight = mix( outgoingLight, marker( diffuseColor.rgb ), glow );
+  float glow = mark * ( 0.1 + ( 0.3 + 0.6 * clear ) * grazing2 );
+  outgoingLight = mix( outgoingLight, vMarker, glow );
   diffuseColor.a += clear * glow;
+`;
+
+// What marks a surface is alike all over a triangle: it is worked out for vertices, of which there are fewer.
+export const MARKED = /* glsl */ `
+  vTint = tint;
+  #ifdef USE_COLOR_ALPHA
+    vMarker = marker( tint.rgb * color.rgb );
+  #else
+    vMarker = marker( tint.rgb );
+  #endif
 `;
 
 // The cofactors of the matrix carry normals rightly whatever it does, shear and stretch included.

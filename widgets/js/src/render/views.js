@@ -5,6 +5,7 @@ import { LabelLayer } from "./labels.js";
 import { Navigator } from "./navigators.js";
 import { Pace } from "./paces.js";
 import { Picture } from "./pictures.js";
+import { Sheet } from "./sheets.js";
 import { THEMES } from "./themes.js";
 
 /** @typedef {import("three").WebGLRenderer} WebGLRenderer */
@@ -40,7 +41,9 @@ export class View {
   #snapshot = null;
   #stale = true;
   #turned = true;
-  #context;
+  /** whether the canvas's size is known until somebody tells of another; to ask for it lays out the page */
+  #isMeasured = false;
+  #sheet;
   #observer;
   #dark = matchMedia("(prefers-color-scheme: dark)");
   #still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -62,7 +65,7 @@ export class View {
     const { shading, edges, ground, axes, grid, shadows, theme } = manifest.options;
     this.#stage = stage;
     this.canvas = canvas;
-    this.#context = canvas.getContext("2d");
+    this.#sheet = new Sheet(canvas);
     this.#options = { shading, edges, ground, axes, grid, shadows, theme, hover: true };
     this.#labels = new LabelLayer(canvas);
     this.#picture = new Picture(stage.materials, this.#labels, manifest.bounds, this.#theme);
@@ -147,6 +150,7 @@ export class View {
 
   /** Look at the canvas's size anew. */
   resize() {
+    this.#isMeasured = false;
     this.#stage.invalidate(this, true);
   }
 
@@ -254,7 +258,7 @@ export class View {
     const density = width / picture.size.width;
     const care = sharp ? { shadows: true, skips: 0 } : step;
     picture.draw(renderer, blur, { width, height, density, ...care });
-    this.#copy(renderer.domElement, wide, high);
+    this.#sheet.show(renderer.domElement, wide, high);
     picture.letter(eye, sharp);
     if (sharp || performance.now() - this.#glanced > GLANCE) this.#look();
     if (this.#navigator.gliding) this.#looked();
@@ -285,24 +289,22 @@ export class View {
   /** The same, looked at as it is to be looked at now. */
   #aimed() {
     const picture = this.#ready();
-    const width = Math.max(1, this.canvas.clientWidth);
-    const height = Math.max(1, this.canvas.clientHeight);
-    const resized = width !== picture.size.width || height !== picture.size.height;
-    if (!this.#turned && !resized && !this.#navigator.gliding) return picture;
-    picture.size.width = width;
-    picture.size.height = height;
+    if (!this.#isMeasured) this.#measure(picture);
+    if (!this.#turned && !this.#navigator.gliding) return picture;
     this.#turned = false;
     picture.aim(this.#navigator.eye(performance.now()), this.#navigator);
     return picture;
   }
 
-  /** @type {(image: HTMLCanvasElement, width: number, height: number) => void} */
-  #copy(image, width, height) {
-    if (this.canvas.width !== width || this.canvas.height !== height) {
-      this.canvas.width = width;
-      this.canvas.height = height;
-    } else this.#context?.clearRect(0, 0, width, height);
-    this.#context?.drawImage(image, 0, 0, width, height);
+  /** @param {Picture} picture */
+  #measure({ size }) {
+    const width = Math.max(1, this.canvas.clientWidth);
+    const height = Math.max(1, this.canvas.clientHeight);
+    this.#isMeasured = this.#observer !== null && width > 1;
+    if (width === size.width && height === size.height) return;
+    size.width = width;
+    size.height = height;
+    this.#turned = true;
   }
 
   #looked() {
