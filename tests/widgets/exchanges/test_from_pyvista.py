@@ -11,6 +11,7 @@ from matplotlib import colormaps
 
 import reactive4d as r4
 from reactive4d.geometry.colormaps import colored, colormap, limits
+from reactive4d_widgets.stage.shapes import shape
 
 
 def drawn(obj: r4.Object, t: float = 0.0) -> Any:
@@ -290,3 +291,17 @@ def test_every_number_has_a_colour(numbers: list[float]):
     found = colored(array, colormap("viridis"), low, high)
     assert found.shape == (len(numbers), 4)
     assert ((found >= 0) & (found <= 1)).all()
+
+
+def test_cells_of_other_colours_have_no_edges_between_them_and_stay_smooth():
+    """In stills as in the viewer; where solids were combined there is an edge."""
+    data = pv.Sphere()
+    data.cell_data["n"] = np.arange(data.n_cells) * 1.0
+    plain, coloured = (
+        shape(drawn(r4.from_pyvista(data, scalars=x)), way="as it is", matrix=np.eye(4)) for x in (False, "n")
+    )
+    assert len(plain.cut.edges) == len(coloured.cut.edges) == 0
+    assert len(coloured.points) == 3 * data.n_cells
+    assert np.allclose(plain.normals[plain.faces], coloured.normals[coloured.faces], atol=1e-6)
+    part = r4.from_pyvista(data, scalars=False, color="red") - r4.Box(size=(1, 1, 0.2), color="blue")
+    assert len(shape(drawn(part), way="as it is", matrix=np.eye(4)).cut.edges) > 0

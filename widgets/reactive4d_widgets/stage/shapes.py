@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.arrays import freeze
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.transforms import transform_points
 from reactive4d.model.drawings import Lines, Points
@@ -89,10 +90,13 @@ def shape(mesh: Mesh, *, way: str, matrix: Any, cut: Split | None = None) -> Sha
     >>> box.points.shape, box.normals.shape, box.faces.shape
     ((24, 3), (24, 3), (12, 3))
     """
-    cut = _split(mesh) if cut is None else cut
+    whole = _split(mesh) if cut is None else cut
+    points = mesh.points if whole.origin is None else mesh.points[whole.origin]
+    normals = _normals(points, whole.faces.astype(np.int64))
+    cut, copies = _painted(mesh, whole)
+    if copies is not None:
+        points, normals = points[copies], normals[copies]
     faces = cut.faces.astype(np.int64)
-    points = mesh.points if cut.origin is None else mesh.points[cut.origin]
-    normals = _normals(points, faces)
     if way == "flat":
         normals = normals @ _cofactors(matrix[:3, :3]).T
         points = transform_points(matrix, points)
@@ -168,11 +172,26 @@ def crease_paints(mesh: Mesh, used: Indices) -> Paints | None:
 
 
 def _split(mesh: Mesh) -> Split:
+    """How the vertices of a mesh are split at its creases, and where faces come from different things."""
+    attributes = mesh.attributes
+    return split(mesh.points, mesh.faces, weld=attributes.get("weld"), groups=attributes.get("source"))
+
+
+def _painted(mesh: Mesh, cut: Split) -> tuple[Split, Any]:
+    """The same with vertices doubled that faces of different paint share, and which each of them was.
+
+    Where only the paint is another, there is no edge, and the surface is as smooth as it was.
+    """
     colors = mesh.attributes.get("colors")
-    groups: Any = None
-    if colors is not None and len(colors) == len(mesh.faces):
-        groups = np.unique(colors, axis=0, return_inverse=True)[1].reshape(-1)
-    return split(mesh.points, mesh.faces, weld=mesh.attributes.get("weld"), groups=groups)
+    if colors is None or len(colors) != len(mesh.faces):
+        return cut, None
+    paint = np.unique(colors, axis=0, return_inverse=True)[1].reshape(-1, 1).astype(np.int64)
+    count = int(paint.max(initial=0)) + 1
+    found, vertices = np.unique(cut.faces.astype(np.int64) * count + paint, return_inverse=True)
+    copies = found // count
+    origin = copies if cut.origin is None else cut.origin[copies].astype(np.int64)
+    faces = vertices.reshape(-1, 3).astype(np.uint32)
+    return Split(freeze(faces), freeze(origin.astype(np.uint32)), cut.edges), copies
 
 
 def _normals(points: Floats, faces: Indices) -> NDArray[np.float64]:
