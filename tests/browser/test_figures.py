@@ -180,6 +180,33 @@ def test_time_plays_and_so_does_any_number(opened: Callable[..., Reader]):
     assert point(reader)["t"] == time
 
 
+def test_where_nothing_changes_with_time_there_is_no_time(read: Read, tmp_path: Path):
+    """No slider, and nothing that plays, unless a parameter is to play; then the player plays that."""
+
+    class Pile(r4.Illustration):
+        height = param.Number(1.0, bounds=(0.5, 2.0))
+
+        def build(self) -> r4.Scene:
+            box = r4.Box()
+            box.translate(r4.vec(0, 0, self.signals.height))
+            return r4.Scene(box=box)
+
+    page = r4.Page("![](idle)\n\n![](plays)", idle=Pile, plays=r4.Figure(Pile, options={"playing": "height"}))
+    reader = read(page.bake(tmp_path / "pile.html", progress=False).path)
+    idle, plays = reader.figure(0), reader.figure(1)
+    for figure in (idle, plays):
+        assert not figure.control("slider", "Time").is_visible()
+        assert not figure.control("button", "Next mark").is_visible()
+        assert figure.control("slider", "Height").is_visible()
+    assert not idle.control("button", "Play").is_visible()
+    idle.element.locator("canvas").first.focus()
+    reader.page.keyboard.press("Space")
+    plays.control("button", "Play").click()
+    reader.until("() => document.querySelectorAll('r4d-figure')[1].reader.point.parameters.height > 1.1")
+    plays.control("button", "Pause").click()
+    assert (idle.point()["time"], plays.point()["time"], idle.point()["parameters"]) == (0.0, 0.0, {"height": 1.0})
+
+
 def test_a_page_stands_still_for_whoever_wants_no_motion(opened: Callable[..., Reader]):
     """It opens paused, and plays when it is told to."""
     reader = opened(still=True, clock=True)

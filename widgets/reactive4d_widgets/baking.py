@@ -268,6 +268,10 @@ def _served(
 ) -> Report:
     """Write the file."""
     lead(shown, text)
+    for figure in shown:  # the player of a leader moves those that follow it
+        times, leader = figure.table.manifest["times"], figure.leader
+        while leader is not None and not times["still"]:
+            leader.table.manifest["times"]["still"], leader = False, leader.leader
     layout = laid_out(shown, text, title=title)
     data = {figure.name: figure.table.to_json() for figure in shown if figure.source == figure.name}
     content = document(layout.body, data, title=layout.title, lang=lang, theme=theme).encode("utf-8")

@@ -14,8 +14,8 @@ from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.grades import described, readers_of
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
-from reactive4d_widgets.segments import Segment
-from reactive4d_widgets.sights import alternatives, outline, view
+from reactive4d_widgets.segments import Segment, is_timeless
+from reactive4d_widgets.sights import outline, view
 from reactive4d_widgets.stores import Store
 
 __all__ = ["Problem", "Table", "compact", "tabulated"]
@@ -121,19 +121,22 @@ def tabulated(
         described(control, segments, plan.asker, readers_of(segments), depends=depends.get(control.name))
         for control in plan.subject.controls
     ]
-    if begun is not None:
-        begun("#alt")
-    texts = alternatives(plan, size)
     sizes: dict[str, int] = {}
     chunks = store.chunks(sizes)
-    written = [_written(plan, segment, sizes) for segment in [*segments, *texts]]
+    written = [_written(plan, segment, sizes) for segment in segments]
     manifest = {
         "format": "reactive4d/1",
         "name": name or plan.subject.name,
         "title": title if title is not None else plan.subject.title,
         "doc": plan.subject.doc,
         "revision": 1,
-        "times": {"start": plan.span.start, "stop": plan.span.stop, "rate": plan.span.rate, "marks": marks(plan)},
+        "times": {
+            "start": plan.span.start,
+            "stop": plan.span.stop,
+            "rate": plan.span.rate,
+            "marks": marks(plan),
+            "still": all(map(is_timeless, segments)),
+        },
         "parameters": graded,
         "handles": list(plan.subject.handles),
         "view": view(outer).to_json(),

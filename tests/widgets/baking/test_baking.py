@@ -464,6 +464,13 @@ def test_the_report_tells_the_author_what_readers_cannot_reach(tmp_path: Path) -
     assert bake(ball(), tmp_path / "ball.html").notes == ()
 
 
+def test_a_leader_has_the_time_that_its_followers_need(tmp_path: Path) -> None:
+    """Nothing moves in the one, but its player moves the other; one that leads nobody has no time."""
+    page = r4.Page("", still=ball(), swing=r4.Figure(Swing, follow="still"), alone=r4.Scene(box=r4.Box()))
+    data = seen(page.bake(tmp_path / "page.html", times=(0, 1)).path).data()
+    assert [data[name]["manifest"]["times"]["still"] for name in ("still", "swing", "alone")] == [False, False, True]
+
+
 def test_values_may_come_one_by_one(tmp_path: Path) -> None:
     """From a generator as from a list."""
     plan = planned(Swing, times=(0, 1), parameters={"length": (x / 2 for x in range(1, 4))})

@@ -165,7 +165,7 @@ def test_the_manifest_says_what_there_is(bake: Any) -> None:
     baked = bake(r4.Scene(ball=ball, car=r4.Group(body=r4.Box())))
     manifest = baked.manifest
     assert manifest["format"] == "reactive4d/1"
-    assert manifest["times"] == {"start": 1.0, "stop": 4.0, "rate": 30.0, "marks": [1.0, 2.5, 4.0]}
+    assert manifest["times"] == {"start": 1.0, "stop": 4.0, "rate": 30.0, "marks": [1.0, 2.5, 4.0], "still": False}
     assert manifest["nodes"] == [
         {"name": "ball", "kind": "sphere"},
         {"name": "car", "kind": "group"},
@@ -200,3 +200,23 @@ def test_the_size_is_known_before_it_is_asked_for() -> None:
     plan = planned(sheet(), times=(0, 4))
     table = tabulated(plan, survey=lambda plan, coverer: told.append(sum(s.size for s in estimated(plan, coverer))))
     assert 0.5 < told[0] / sum(table.sizes.values()) < 2.0
+
+
+@pytest.mark.parametrize("what", ["place", "shape", "colour", "value", "member", "nothing", "parameter"])
+def test_a_table_says_whether_anything_changes_with_time(what: str, bake: Any) -> None:
+    """Where something is, what it is like, what a value says, who is there; a parameter moves it at any time."""
+    x = r4.time if what not in ("nothing", "parameter") else r4.Parameter("tables_x", 1.0, bounds=(0, 2))
+    ball, scene = r4.Sphere(radius=0.1), r4.Scene()
+    scene["ball"] = ball
+    if what in ("place", "parameter"):
+        ball.translate(r4.vec(0, 0, 2 * x))
+    elif what == "shape":
+        ball.apply(r4.Twist(10 * x))
+    elif what == "colour":
+        ball.color = r4.keys({0: "red", 2: "blue"})
+    elif what == "value":
+        scene.signals["height"] = 2 * x
+    elif what == "member":
+        ball.visible = x > 1.0
+    baked = bake(scene, times=(0, 2))
+    assert baked.manifest["times"]["still"] is (what in ("nothing", "parameter"))

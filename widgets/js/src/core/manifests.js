@@ -92,7 +92,8 @@ function readTimes(value, path) {
   if (stop < start) throw new WireError(path, `expected a stop after the start, got ${start} and ${stop}`);
   const rate = finite(own(given, "rate") ?? 30, `${path}.rate`);
   if (!(rate > 0)) throw new WireError(`${path}.rate`, `expected a positive number, got ${rate}`);
-  return { start, stop, rate, marks: Array.from(ascending(own(given, "marks") ?? [], `${path}.marks`)) };
+  const marks = Array.from(ascending(own(given, "marks") ?? [], `${path}.marks`));
+  return { start, stop, rate, marks, still: truth(own(given, "still") ?? false, `${path}.still`) };
 }
 
 /** @param {any} value @param {string} path @returns {Parameter} */

@@ -122,7 +122,7 @@
  * @property {string} title
  * @property {string} doc
  * @property {number} revision
- * @property {{start: number, stop: number, rate: number, marks: readonly number[]}} times
+ * @property {{start: number, stop: number, rate: number, marks: readonly number[], still: boolean}} times
  * @property {readonly Parameter[]} parameters
  * @property {readonly Handle[]} handles
  * @property {Required<Eye>} view
@@ -215,7 +215,6 @@
  * @property {Parameters} parameters
  * @property {ReadonlyMap<string, NodeState>} nodes in the order of the scene; the same map if none changed
  * @property {ReadonlyMap<string, Value>} values
- * @property {string} alt
  * @property {readonly Problem[]} problems
  *
  * @typedef {{start: number, stop: number, state: "remembered"|"stale"|"computing"|"missing"}} Span

@@ -1,6 +1,13 @@
 /** Sliders and the lines of parameters under a figure. */
 
 export const controlStyles = `
+/* A player without a time */
+.player[data-timeless] :is(.scrub, .amount) { display: none; }
+.player[data-idle] :is(.transport, .speed, .extras > [aria-pressed]) { display: none; }
+.player[data-timeless] { grid-template-columns: auto 1fr; }
+.player[data-timeless] > .extras { grid-row: 1; grid-column: 2; justify-self: end; }
+.player[data-timeless] > .transport { grid-row: 1; grid-column: 1; }
+
 /* A slider */
 .slider { position: relative; height: var(--target); min-width: 0; display: grid; align-items: center; }
 .slider input {

@@ -50,7 +50,7 @@ export class Life {
     this.reader = new Reader(this.manifest, session, clock);
     this.announcer = new Announcer((text) => setText(spoken, text));
     this.picture = new Picture({
-      toggle: () => this.reader.turn(this.player.main),
+      toggle: () => this.player.turn(),
       step: (direction) => this.player.step(direction),
       pick: (x, y) => this.view?.pick(x, y) ?? null,
       select: (hit) => this.select(hit),
@@ -285,7 +285,8 @@ export class Life {
   /** The page opens playing, if it is told to and the reader does not mind motion. */
   open() {
     this.#menuNow();
-    if (this.manifest.options.autoplay && !reducedMotion()) this.reader.play(this.player.main);
+    const { player, reader } = this;
+    if (this.manifest.options.autoplay && !player.idle && !reducedMotion()) reader.play(player.main);
     setAll(this.picture.canvas, { "aria-description": KEYS });
   }
 

@@ -29,11 +29,14 @@ export class Player {
     this.#limits = { lo: start, hi: stop, step: niceBelow((stop - start) / 100), stops: null };
     this.fine = niceBelow((stop - start) / 400);
     this.main = reader.manifest.options.playing || "time";
+    // Where nothing changes with time there is no time to be seen; a parameter may play all the same.
+    this.timeless = reader.manifest.times.still;
+    this.idle = this.timeless && this.main === "time";
 
-    this.play = button("Play", icon("play"), () => reader.turn(this.main), { class: "icon-button play" });
+    this.play = button("Play", icon("play"), () => this.turn(), { class: "icon-button play" });
     const previous = button("Previous mark", icon("previous"), () => this.step(-1), { class: "icon-button" });
     const next = button("Next mark", icon("next"), () => this.step(1), { class: "icon-button" });
-    previous.hidden = next.hidden = reader.manifest.times.marks.length === 0;
+    previous.hidden = next.hidden = this.timeless || reader.manifest.times.marks.length === 0;
     this.slider = new Slider({
       label: "Time",
       say: (t) => timeText(t, this.fine),
@@ -54,8 +57,15 @@ export class Player {
       make("span", { class: "amount" }, [this.typed.element, make("span", { class: "unit" }, ["s"])]),
       make("div", { class: "extras" }, [this.speed, this.loop, more]),
     ]);
+    this.element.toggleAttribute("data-timeless", this.timeless);
+    this.element.toggleAttribute("data-idle", this.idle);
     this.show();
     this.plays();
+  }
+
+  /** Play or pause; where there is nothing to play, nothing happens. */
+  turn() {
+    if (!this.idle || this.#reader.isPlaying()) this.#reader.turn(this.main);
   }
 
   /** The reader is somewhere else. */
@@ -82,6 +92,7 @@ export class Player {
 
   /** To the next or previous key or interval boundary. @param {1 | -1} direction */
   step(direction) {
+    if (this.timeless) return;
     const t = this.#mark(this.#reader.session.point.time, direction);
     if (t === null) return;
     this.#reader.pause();

@@ -78,7 +78,6 @@ export const snapshot = (...states) => ({
   parameters: {},
   nodes: new Map(states.map((state) => [state.name, state])),
   values: new Map(),
-  alt: "",
   problems: [],
 });
 
@@ -89,7 +88,7 @@ export const manifest = (options = {}) => ({
   title: "",
   doc: "",
   revision: 0,
-  times: { start: 0, stop: 1, rate: 30, marks: [] },
+  times: { start: 0, stop: 1, rate: 30, marks: [], still: false },
   parameters: [],
   handles: [],
   view: { position: [0, -10, 0], target: [0, 0, 0], up: [0, 0, 1], fov: 40, near: 0.01, far: 1000 },

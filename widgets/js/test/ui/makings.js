@@ -20,7 +20,7 @@ export function parameter(name, more = {}) {
 export function manifest(parameters, more = {}) {
   return {
     format: "reactive4d/1", name: "pendulum", title: "A pendulum", doc: "", revision: 1,
-    times: { start: 0, stop: 10, rate: 30, marks: [0, 2.5, 10] }, parameters, handles: [],
+    times: { start: 0, stop: 10, rate: 30, marks: [0, 2.5, 10], still: false }, parameters, handles: [],
     view: { position: [0, -5, 0], target: [0, 0, 0], up: [0, 0, 1], fov: 30, near: 0.1, far: 100 },
     bounds: [[-1, -1, -1], [1, 1, 1]], nodes: [{ name: "bob", kind: "Sphere" }], values: [],
     point: { time: 0, parameters: Object.fromEntries(parameters.map((p) => [p.name, p.default])), camera: null },
