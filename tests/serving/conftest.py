@@ -25,13 +25,14 @@ COUNTING = """(() => {
     constructor(...given) {
       super(...given);
       this.addEventListener("message", ({ data }) => {
-        const text = typeof data === "string" ? data : new TextDecoder().decode(data);
+        const bytes = data instanceof ArrayBuffer ? new TextDecoder().decode(data) : "";
+        const text = typeof data === "string" ? data : bytes;
         if (text.includes('"type":"answer"')) window.asks.now--;
       });
     }
 
     send(text) {
-      if (JSON.parse(text).type === "ask") {
+      if (typeof text === "string" && JSON.parse(text).type === "ask") {
         window.asks.all++;
         window.asks.most = Math.max(window.asks.most, ++window.asks.now);
       }

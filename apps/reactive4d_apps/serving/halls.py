@@ -79,12 +79,19 @@ class Hall:
         self._lines_of_log = Bucket(1.0, 100.0)
         self._open = 0
 
-    def attach(self, app: web.Application) -> None:
-        """Add the addresses to a server that has not started, and end with it."""
-        app.router.add_get("/{token}/", self._get_page)
-        app.router.add_get("/{token}/live/{figure}", self._get_line)
-        app.router.add_get("/{token}/copy/{figure}", self._get_copy)
-        app.router.add_get("/{token}/{file}", self._get_file)
+    def attach(self, app: web.Application, *, is_guest: bool = False) -> None:
+        """Add the addresses to a server that has not started, and end with it.
+
+        Args:
+            app: of the server.
+            is_guest: whether it has addresses of its own, which ours must not cover: then there is no page of ours.
+        """
+        head = f"/{self.token}" if is_guest else "/{token}"
+        if not is_guest:
+            app.router.add_get(f"{head}/", self._get_page)
+        app.router.add_get(f"{head}/live/{{figure}}", self._get_line)
+        app.router.add_get(f"{head}/copy/{{figure}}", self._get_copy)
+        app.router.add_get(f"{head}/{{file}}", self._get_file)
         app.on_startup.append(self._begin)
         app.on_shutdown.append(self._finish)
 
@@ -201,7 +208,7 @@ class Hall:
     def _admit(self, request: web.Request, *, must_tell: bool = False) -> None:
         """Let a call pass, or raise what it is told."""
         headers = request.headers
-        given = request.match_info["token"]
+        given = request.match_info.get("token", self.token)
         reason = self.door.refusal(given, headers.get("Host"), headers.get("Origin"), must_tell=must_tell)
         if reason is not None:
             raise self._refused(request, reason, web.HTTPForbidden)

@@ -32,4 +32,5 @@ export { WordElement } from "./inline/word.js";
 export { define, start } from "./adapters/page.js";
 export { keepsake, widget } from "./adapters/anywidget.js";
 export { connect, serve } from "./adapters/trame.js";
+export { vue } from "./adapters/vue.js";
 export { either, site } from "./adapters/site.js";
