@@ -12,7 +12,7 @@ from pathlib import Path
 
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError
-from reactive4d_apps import stories, sweeps
+from reactive4d_apps import renders, stories, sweeps
 from reactive4d_apps.books import commands as books
 from reactive4d_apps.demos import demonstrated, served
 from reactive4d_apps.openings import opened
@@ -39,7 +39,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         SystemExit: with status 2 when the words make no sense; what is wrong with them has been said.
     """
     parser = _parser()
-    words = parser.parse_args(arguments)
+    words, more = parser.parse_known_args(arguments)
+    # Parameters may stand after options as well, which argparse does not know of commands.
+    if more and (words.command != "render" or any(word.startswith("-") for word in more)):
+        parser.error(f"unrecognized arguments: {' '.join(more)}")
+    if more:
+        words.over += more
     if words.command is None:
         parser.print_help()
         return 0
@@ -84,6 +89,8 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
         yield from books.told(words, browser=_browser(), width=width)
     elif words.command == "sweep":
         yield from sweeps.swept(words, width=width)
+    elif words.command == "render":
+        yield from renders.rendered(words)
     elif words.script is None:
         yield from stories.story(words.at or stories.TIMES, width=width)
     else:
@@ -125,6 +132,7 @@ def _parser() -> argparse.ArgumentParser:
 
     sweeps.add_command(commands)
     books.add_command(commands)
+    renders.add_command(commands)
 
     about = "print what the scene of a script shows at some instants"
     shown = commands.add_parser("show", help=about, description=f"{about.capitalize()}.")

@@ -10,6 +10,7 @@ from typing import Any
 
 from reactive4d.errors import ParameterError, ShapeError, UnknownNameError, hint
 from reactive4d_apps.phrases import paragraph
+from reactive4d_apps.words import values_of
 
 __all__ = ["add_command", "swept"]
 
@@ -117,7 +118,7 @@ def _over(words: list[str], latin: int | None) -> dict[str, Any]:
             raise hint(error, "length=0.5:2:16, angle=10,45 or time=3")
         if name in over or name in ranges:
             raise ParameterError(f"{name} is given twice")
-        values = _values(name, text)
+        values = values_of(name, text)
         if isinstance(values, tuple):
             ranges[name] = values
         else:
@@ -130,43 +131,6 @@ def _over(words: list[str], latin: int | None) -> dict[str, Any]:
     if latin is not None and not ranges:
         raise hint(ParameterError("--latin: no ranges to draw from"), "length=0.5:2 is one")
     return over if latin is None else {"sample": latin_hypercube(latin, **ranges), **over}
-
-
-def _values(name: str, text: str) -> Any:
-    """Values between commas as a list, evenly spaced ones as an array, a range as a tuple, a single one as itself."""
-    import numpy as np
-
-    parts = text.split(":")
-    if len(parts) > 1:
-        try:
-            start, stop = float(parts[0]), float(parts[1])
-            count = int(parts[2]) if len(parts) == 3 else 0
-            if len(parts) > 3 or count < (len(parts) == 3):
-                raise ValueError
-        except ValueError:
-            error = ParameterError(f"{name}: expected start:stop:count, got {text!r}")
-            raise hint(error, f"{name}=0:10:501 are 501 values from 0 to 10") from None
-        if len(parts) == 2:
-            return start, stop
-        spaced: Any = np.linspace(start, stop, count)
-        return spaced.astype(int).tolist() if _are_whole(spaced, parts) else spaced
-    values = [_value(part) for part in text.split(",") if part]
-    return values[0] if len(values) == 1 and "," not in text else values
-
-
-def _are_whole(spaced: Any, parts: list[str]) -> bool:
-    return all("." not in part for part in parts) and bool((spaced == spaced.round()).all())
-
-
-def _value(text: str) -> Any:
-    if text in ("true", "false"):
-        return text == "true"
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
 
 
 def _measures(words: list[str]) -> dict[str, str]:

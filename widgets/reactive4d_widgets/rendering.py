@@ -21,6 +21,8 @@ OTHERS = {
     ".mp4": "films are .mp4, .gif and .webp",
     ".glb": "models of an instant are .glb",
 }
+OF_FILMS = ("times", "rate", "loop", "progress")
+OF_PICTURES = ("size", "camera", "background", "edges", "shadows")
 KINDRED = {
     ".png": {".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".svg", ".pdf", ".avif"},
     ".mp4": {".mov", ".webm", ".avi", ".mkv", ".apng", ".mpg", ".m4v", ".ogv"},
@@ -53,11 +55,13 @@ def render(subject: Any, path: str | os.PathLike[str], **options: Any) -> None:
     way = WAYS.get(target.suffix.lower())
     if way is None:
         raise _refusal(target)
-    if way is not films.film:
-        for name in ("times", "rate", "loop", "progress"):
-            if name in options and not _is_parameter(subject, name):
-                error = UnknownNameError(f"{target.name}: {name} is of films; this is one instant")
-                raise hint(error, f"t=1.5, or a film: {target.with_suffix('.mp4').name}")
+    for name in options:
+        if way is not films.film and name in OF_FILMS and not _is_parameter(subject, name):
+            error = UnknownNameError(f"{target.name}: {name} is of films; this is one instant")
+            raise hint(error, f"t=1.5, or a film: {target.with_suffix('.mp4').name}")
+        if way is models.model and name in OF_PICTURES and not _is_parameter(subject, name):
+            error = UnknownNameError(f"{target.name}: {name} is of pictures; this is a model of what is there")
+            raise hint(error, f"a picture: {target.with_suffix('.png').name}")
     way(subject, target, **options)
 
 

@@ -157,8 +157,12 @@ def bounds_of(frames: Iterable[Frame]) -> Array:
 def outermost(frames: Iterable[Frame]) -> Array:
     """(N, 3), those points of all that is drawn that lie outermost in some direction, in world space."""
     found: list[Array] = []
+    known: dict[int, Node] = {}  # what does not change from frame to frame is looked at once
     for frame in frames:
         for node in frame.values():
+            if id(node) in known:
+                continue
+            known[id(node)] = node
             if node.primitive == "label":
                 found.append(np.array([node.matrix[:3, 3]]))
             if node.primitive not in ("mesh", "lines", "points"):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive4d.model.nodes import Node
+from reactive4d.signals.colors import srgb_to_linear
 from reactive4d_widgets.stage.actors import Actor
 from reactive4d_widgets.stage.lights import Lights
 from reactive4d_widgets.stage.shapes import Outline, Shape, crease_paints, outline, paints, placed, shape, stroke
@@ -185,7 +186,8 @@ class Body:
         painted = None
         if color is None:
             painted = drawn.colors if self._shape is None else paints(drawn, self._shape.cut)
-        self._main.color(shown, painted)
+        is_lit = self._primitive in SURFACES and self._look.lights is not None
+        self._main.color(np.append(srgb_to_linear(shown[:3]), shown[3]) if is_lit else shown, painted)
         if self._primitive in SURFACES and self._look.lights is not None:
             lights = self._look.lights
             self._main.prop.SetShaderProperty(lights.colored if painted is None else lights.painted)

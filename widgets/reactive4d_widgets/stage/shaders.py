@@ -15,7 +15,7 @@ __all__ = ["COLOR", "MAP", "NEARER", "PAINTS", "Sort", "shading", "sort_of"]
 
 MAP = "r4Map"  # the distances that lamps see, one square above the other
 SPECULAR = 0.0080  # of #161616, linear
-SHININESS = 24.0
+SHININESS = 24.0  # a power that takes five products
 SOFT = 3  # pixels of a lamp's picture over which the edge of a shadow fades
 BIAS = 2.5  # pixels of it by which places are lifted off their surface
 _TAPS = [(a, b) for a in range(-SOFT, SOFT + 1) for b in range(-SOFT, SOFT + 1) if a * a + b * b <= SOFT * SOFT + 1]
@@ -26,15 +26,16 @@ NEARER = """//VTK::PositionVC::Impl
   gl_Position.z += r4Nearer;
 """
 _START = """//VTK::Light::Impl
-  vec3 r4Srgb = clamp({color}, 0.0, 1.0);
-  vec3 r4Color = mix(pow((r4Srgb + 0.055) / 1.055, vec3(2.4)), r4Srgb / 12.92,
-                     vec3(lessThanEqual(r4Srgb, vec3(0.04045))));
+  vec3 r4Color = {color};
   vec3 r4Normal = normalize(normalVCVSOutput);
   vec3 r4Back = normalize(-vertexVC.xyz);
   vec3 r4Light = r4Color * mix(r4Below, r4Above, 0.5 + 0.5 * dot(r4Normal, r4Up));
 """
-# Of the colours of vertices VTK makes others, as if they were sRGB and it were to light them.
-COLOR, PAINTS = "diffuseColor", "vertexColorVSOutput.rgb"
+# A surface's one colour is told as linear light. Paints are bytes, of which VTK makes others, as if it were to light
+# them: they are taken as they come, and are sRGB.
+COLOR = "diffuseColor"
+PAINTS = """mix(pow((vertexColorVSOutput.rgb + 0.055) / 1.055, vec3(2.4)), vertexColorVSOutput.rgb / 12.92,
+                     vec3(lessThanEqual(vertexColorVSOutput.rgb, vec3(0.04045))))"""
 _FLAT = """  vec3 r4Flat = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));
   r4Flat = dot(r4Flat, r4Back) < 0.0 ? -r4Flat : r4Flat;
 """
@@ -46,8 +47,13 @@ _LAMP = """  {{
     vec3 r4Half = normalize(r4Way + r4Back);
     float r4Grazing = clamp(dot(r4Back, r4Half), 0.0, 1.0);
     float r4Fresnel = exp2((-5.55473 * r4Grazing - 6.98316) * r4Grazing);
+    float r4Power = clamp(dot(r4Normal, r4Half), 0.0, 1.0);
+    r4Power *= r4Power;
+    r4Power *= r4Power;
+    r4Power *= r4Power;
+    r4Power *= r4Power * r4Power;
     float r4Mirrored = mix({specular:.6f}, 1.0, r4Fresnel) * 0.25 * ({shininess:.6f} * 0.5 + 1.0)
-                     * pow(clamp(dot(r4Normal, r4Half), 0.0, 1.0), {shininess:.6f});
+                     * r4Power;
     r4Light += r4Strength * r4Color{i} * r4Cosine * (r4Color + r4Mirrored);
   }}
 """
@@ -89,10 +95,13 @@ _SHADOW = """if (r4Strength * r4Cosine > 0.0)
         r4Strength *= r4Lit / {probes}.0;
       }}
     }}"""
+# sRGB of three roots: off by less than a tenth of a step of a byte, and quicker than a power.
 _STOP = """  float r4Rim = 1.0 - clamp(abs(dot(r4Normal, r4Back)), 0.0, 1.0);
   r4Light = clamp(mix(r4Light, vec3(r4Tending.x), r4Tending.y * r4Rim * r4Rim * r4Rim), 0.0, 1.0);
-  gl_FragData[0] = vec4(mix(1.055 * pow(max(r4Light, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, 12.92 * r4Light,
-                            vec3(lessThanEqual(r4Light, vec3(0.0031308)))), opacity);
+  vec3 r4Root = sqrt(r4Light);
+  vec3 r4Root4 = sqrt(r4Root);
+  vec3 r4Srgb = 0.64456067 * r4Root + 0.70994555 * r4Root4 - 0.33605156 * sqrt(r4Root4) - 0.01848596 * r4Light;
+  gl_FragData[0] = vec4(mix(r4Srgb, 12.92 * r4Light, vec3(lessThanEqual(r4Light, vec3(0.0031308)))), opacity);
 """
 
 

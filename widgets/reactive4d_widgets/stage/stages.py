@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkTexture
 
 from reactive4d.model.frames import Frame
+from reactive4d.model.nodes import Node
 from reactive4d_widgets.captions import captioned, label_of
 from reactive4d_widgets.lamps import Lamp, light_of
 from reactive4d_widgets.stage import floors
@@ -120,7 +121,8 @@ class Stage:
             bounds: (2, 3), the box of all that is drawn, over all times, metres: below it is the floor.
             colors: (4,) numbers from 0 to 1 that nodes have instead of their colour and their paints, by name.
         """
-        self._enter(frame, colors or {})
+        nodes = dict(frame)
+        self._enter(nodes, colors or {})
         box = np.asarray(bounds, np.float64)
         corners = [body.corners for body in self._bodies.values() if body.corners is not None]
         places = np.concatenate(corners) if corners else np.zeros((0, 3))
@@ -133,7 +135,7 @@ class Stage:
         )
         front.SetUseDepthPeeling(any(body.clear and body.corners is not None for body in self._bodies.values()))
         if self._lights is not None:
-            sky, lamps = light_of(frame.values(), view)
+            sky, lamps = light_of(nodes.values(), view)
             eyes = self._eyes(lamps, box)
             self._lights.shine(sky, lamps, view, eyes=eyes, rim=self._theme.rim)
         self._lay(box, view)
@@ -141,20 +143,20 @@ class Stage:
         image = self._window.colors()
         image = image if self._finer == 1 else image.reduce(self._finer)
         if not self._plain:
-            labels = [label_of(node) for node in frame.values() if node.visible and node.primitive == "label"]
+            labels = [label_of(node) for node in nodes.values() if node.visible and node.primitive == "label"]
             image = captioned(image, labels, view, ratio=self._ratio, paper=self._theme.paper)
         return np.asarray(image)
 
     # -- who is on it ----------------------------------------------------------------------------------------------
 
-    def _enter(self, frame: Frame, colors: Mapping[str, Any]) -> None:
+    def _enter(self, nodes: Mapping[str, Node], colors: Mapping[str, Any]) -> None:
         """Bring the bodies up to date."""
         self.touched = {}
-        gone = [name for name in self._bodies if name not in frame]
+        gone = [name for name in self._bodies if name not in nodes]
         for name in gone:
             del self._bodies[name]
         others = bool(gone)
-        for name, node in frame.items():
+        for name, node in nodes.items():
             body = self._bodies.get(name)
             if body is None:
                 body = self._bodies[name] = Body(self._look)
@@ -167,8 +169,8 @@ class Stage:
                 others = others or "actors" in touched
                 if threw != throws or (throws and touched != ("paints",)):
                     self._cast += 1
-        if others or list(self._bodies) != list(frame):
-            self._bodies = {name: self._bodies[name] for name in frame}
+        if others or list(self._bodies) != list(nodes):
+            self._bodies = {name: self._bodies[name] for name in nodes}
             self._line_up()
 
     def _line_up(self) -> None:
