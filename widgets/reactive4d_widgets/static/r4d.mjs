@@ -2929,7 +2929,7 @@ input[type="color"] {
   height: var(--r4d-height, auto); aspect-ratio: 8 / 5; max-height: min(80vh, 46rem); width: 100%;
 }
 .picture > canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; touch-action: pan-y; }
-.picture:not([data-live]) > canvas { visibility: hidden; }
+.picture:not([data-live]) > canvas { opacity: 0; } /* what was not drawn yet can be reached by keys */
 .picture > canvas:focus-visible { outline-offset: -3px; }
 .picture > slot { display: block; height: 100%; }
 ::slotted(.r4d-poster) {
