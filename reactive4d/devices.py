@@ -108,6 +108,10 @@ class Showable:
         if not device("display")(self):
             raise NotImplementedError
 
+    def _display_(self) -> Any:
+        """What marimo shows where a cell ends with it."""
+        return self.show()
+
     def show(self, **options: Any) -> Any:
         """Put it before a reader: in a window, or in a cell of a notebook."""
         return device("show")(self, **options)

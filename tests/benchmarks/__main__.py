@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .asking import asking
 from .deforming import deforming
+from .dragging import dragging
 from .editing import editing
 from .graph_speed import graph_speed
 from .growth import growth
@@ -17,6 +18,7 @@ from .memory import memory
 from .modelling import modelling
 from .paging import paging
 from .reports import Section, conditions, data, markdown, text, verdicts
+from .rerunning import rerunning
 from .runs import Run
 from .sampling import sampling
 from .scenes import held_scene
@@ -37,6 +39,8 @@ BENCHMARKS = {
     "pages": paging,
     "serving": serving,
     "sweeps": sweeping,
+    "dragging": dragging,
+    "rerunning": rerunning,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 

@@ -1,5 +1,6 @@
 """Real notebooks for the tests: a JupyterLab or a Notebook 7 of our own, and its page in a browser."""
 
+import contextlib
 import json
 import os
 import socket
@@ -17,6 +18,10 @@ PATIENCE = 120_000  # ms
 NEAR = ("http://127.0.0.1", "ws://127.0.0.1", "data:", "blob:")
 IDLE = "() => document.querySelector('.jp-Notebook-ExecutionIndicator')?.dataset.status === 'idle'"
 ADDRESSES = {"jupyterlab": "/{way}/workspaces/t{now}/tree/x.ipynb?reset", "notebook": "/notebooks/x.ipynb"}
+PROMPTED = """([i, before, pattern]) => {
+  const prompt = document.querySelectorAll(".jp-Notebook .jp-CodeCell")[i].querySelector(".jp-InputPrompt").innerText;
+  return prompt !== before && new RegExp(pattern).test(prompt);
+}"""
 FIGURES = """
 const figures = () => [...document.querySelectorAll(".r4d-cell")]
   .filter((cell) => cell.style.display !== "none")
@@ -125,13 +130,14 @@ class Notebook:
         cell = self.cell(i)
         cell.scroll_into_view_if_needed()
         cell.locator(".jp-InputPrompt").click()
-        before = cell.locator(".jp-InputPrompt").inner_text()
-        self.page.keyboard.press("Control+Enter")
-        self.page.wait_for_function(
-            "([i, before]) => { const p = document.querySelectorAll('.jp-Notebook .jp-CodeCell')[i]"
-            ".querySelector('.jp-InputPrompt').innerText; return p !== before && /\\d/.test(p); }",
-            arg=[i, before],
-        )
+        prompt = cell.locator(".jp-InputPrompt")
+        before = prompt.inner_text()
+        while prompt.inner_text() == before:  # while a kernel is being found, keys may be lost
+            self.page.keyboard.press("Control+Enter")
+            self.page.wait_for_timeout(250)
+            with contextlib.suppress(Exception):
+                self.page.wait_for_function(PROMPTED, arg=[i, before, "."], timeout=5000)
+        self.page.wait_for_function(PROMPTED, arg=[i, before, "\\d"])
 
     def output(self, i: int) -> str:
         """What a cell printed."""

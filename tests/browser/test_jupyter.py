@@ -33,6 +33,15 @@ fig = Pendulum()
     "print('length', fig.length, 'views', w.views)",
     "fig.length = 1.75",
     "fig",
+    """
+import ipywidgets
+hand, told = ipywidgets.FloatSlider(max=10, step=0.5), ipywidgets.FloatText()
+ipywidgets.jslink((hand, "value"), (w, "time"))
+ipywidgets.link((w, "time"), (told, "value"))
+hand
+""",
+    "hand.value = 2.5",
+    "print('told', told.value)",
 ]
 
 
@@ -84,6 +93,18 @@ def test_an_edit_in_the_next_cell_moves_the_picture(opened: Notebook) -> None:
     assert opened.figure("(f) => Math.max(...f.snapshot.nodes.get('bob').points.a.array)") == pytest.approx(0.5)
     opened.run(4)
     opened.wait("(f) => f.snapshot.parameters.length === 1.75 && f.reader.point.parameters.length === 1.75")
+
+
+def test_other_widgets_can_be_linked(opened: Notebook) -> None:
+    """In the page by `jslink`, in the kernel by `link`: time is a trait."""
+    opened.run(6)
+    opened.run(7)
+    opened.wait("(f) => f.snapshot.time === 2.5")
+    opened.figure("(f) => f.reader.change({ time: 4.5 })")
+    opened.wait("(f) => f.snapshot.time === 4.5")
+    while "told 4.5" not in opened.output(8):
+        opened.run(8)
+    assert opened.cell(6).locator(".widget-readout").inner_text() == "4.50"
 
 
 def test_running_a_cell_again_and_again_leaves_one_figure_and_one_viewer(opened: Notebook) -> None:

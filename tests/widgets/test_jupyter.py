@@ -12,6 +12,8 @@ import reactive4d as r4
 
 pytest.importorskip("anywidget")
 
+import ipywidgets
+
 from reactive4d_widgets.jupyter import FigureWidget
 from reactive4d_widgets.keepsakes import Keepsake
 from reactive4d_widgets.live import Model
@@ -50,6 +52,21 @@ def test_parameters_go_both_ways_and_stay_in_their_bounds() -> None:
     assert (fig.height, widget.params) == (3, {"height": 3, "color": "#ff0000"})
     fig.color = "#00ff00"
     assert widget.params["color"] == "#00ff00"
+
+
+def test_time_and_parameters_can_be_linked_to_other_widgets() -> None:
+    """And a figure's own bounds hold for what comes from there."""
+    fig = Pole()
+    widget, _ = wired(fig)
+    hand, told = ipywidgets.FloatText(), ipywidgets.Valid()
+    ipywidgets.link((hand, "value"), (widget, "time"))
+    hand.value = 1.5
+    assert (widget.time, widget.point.time) == (1.5, 1.5)
+    widget.time = 2.5
+    assert hand.value == 2.5
+    ipywidgets.dlink((widget, "params"), (told, "value"), lambda params: params["height"] > 2)
+    widget.params = {"height": 7}
+    assert (fig.height, told.value) == (3, True)
 
 
 def test_views_ask_for_themselves_and_the_viewer_is_sent_to_who_asks() -> None:

@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import param
@@ -72,3 +73,18 @@ def test_what_cannot_be_baked_is_not_shown(addresses: list[str]):
     with pytest.raises(r4.UnknownNameError, match="sise"):
         Ball().show(sise=2.0)
     assert addresses == []
+
+
+def test_in_marimo_a_figure_is_the_value_of_its_cell(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The widget, which marimo shows; nothing is put anywhere else."""
+    pytest.importorskip("anywidget")
+    monkeypatch.setitem(sys.modules, "marimo", SimpleNamespace(running_in_notebook=lambda: True))
+    widget = Ball().show(height=200, save=True)
+    assert widget.point.parameters == {"size": 1.0}
+    assert type(Ball()._display_()).__name__ == type(widget).__name__
+    assert not widget.is_fresh
+
+
+def test_what_a_notebook_would_keep_is_no_matter_of_a_page(addresses: list[str], tmp_path: Path) -> None:
+    """The same program runs in both."""
+    assert showing.show(Ball, path=tmp_path / "ball.html", save=5e6).path.exists()

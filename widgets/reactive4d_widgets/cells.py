@@ -7,7 +7,7 @@ from typing import Any
 from reactive4d.errors import Reactive4dError, hint
 from reactive4d_widgets.figures import OPTIONS
 
-__all__ = ["display", "in_notebook", "show"]
+__all__ = ["display", "in_marimo", "in_notebook", "show"]
 
 
 def in_notebook() -> bool:
@@ -19,6 +19,16 @@ def in_notebook() -> bool:
     found = sys.modules.get("IPython")  # a kernel has imported it
     shell: Any = None if found is None else found.get_ipython()
     return shell is not None and getattr(shell, "kernel", None) is not None
+
+
+def in_marimo() -> bool:
+    """Whether this program is a notebook of marimo's.
+
+    >>> in_marimo()
+    False
+    """
+    found: Any = sys.modules.get("marimo")
+    return found is not None and bool(getattr(found, "running_in_notebook", bool)())
 
 
 def display(thing: Any, /) -> bool:
@@ -66,6 +76,7 @@ def show(thing: Any, /, **options: Any) -> Any:
         options={**looks, **(options.get("options") or {})},
         save=options.get("save"),
     )
-    made.present()
-    made.is_fresh = True
+    if not in_marimo():  # which shows what a cell ends with, and nothing else
+        made.present()
+        made.is_fresh = True
     return made

@@ -10,7 +10,7 @@ from typing import Any
 
 from reactive4d.illustrations import subject
 from reactive4d_widgets.baking import bake
-from reactive4d_widgets.cells import in_notebook
+from reactive4d_widgets.cells import in_marimo, in_notebook
 from reactive4d_widgets.displays import has_screen
 from reactive4d_widgets.figures import OPTIONS
 
@@ -59,7 +59,8 @@ def show(
     >>> shown.path.name, seen[0].startswith("file:///")
     ('scene.html', True)
     """
-    if path is None and browser is None and not hasattr(thing, "figures") and in_notebook() and find_spec("anywidget"):
+    is_page = path is not None or browser is not None or hasattr(thing, "figures")
+    if not is_page and (in_notebook() or in_marimo()) and find_spec("anywidget"):
         from reactive4d_widgets.cells import show as show_in_cell
 
         return show_in_cell(thing, **options)
