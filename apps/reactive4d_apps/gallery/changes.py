@@ -50,14 +50,22 @@ class Gate(r4.Illustration):
     times = (0, 6)
 
     def build(self) -> r4.Scene:
-        """Whether a change acts is a signal like all others."""
+        """Whether a change acts is a signal like all others; pale ones show where the bar is at 0, 3 and 6 s."""
         acts = r4.keys({0: 0, 2: 1, 4: 0}, interpolation="step")
         bar = r4.Box((0.5, 0.5, 3), segments=(1, 1, 24))
         bend = bar.apply(r4.Bend(80))
         bend.enabled = acts
+        way = r4.keys({0: (-2, 0, 1.5), 6: (2, 0, 1.5)})
+        bar.translate(way)
         bar.color = r4.where(acts > 0, r4.color("darkorange"), r4.color("steelblue"))
-        bar.translate(r4.keys({0: (-2, 0, 1.5), 6: (2, 0, 1.5)}))
-        return r4.Scene(bar=bar, camera=r4.Camera((0, -11, 4), (0.2, 0, 1.4), fov=30))
+
+        pale: dict[str, r4.Object] = {}
+        for t in (0, 3, 6):
+            one = pale[f"at {t} s"] = r4.Box((0.48, 0.48, 2.98), segments=(1, 1, 24), color="lightgray")
+            one.apply(r4.Bend(80, enabled=bool(acts.at(t))))
+            one.translate(way.at(t))
+            one.opacity = 0.35
+        return r4.Scene({"camera": r4.Camera((0, -11, 4), (0.2, 0, 1.4), fov=30), "bar": bar, **pale})
 
 
 class Order(r4.Illustration):
@@ -77,7 +85,7 @@ class Order(r4.Illustration):
         moved.rotate(p.angle)
         circle = r4.Circle(1, segments=96, color="gray")
         circle.scale(p.length)
-        camera = r4.Camera((2, -9, 6), (0, 0, 0), fov=32)
+        camera = r4.Camera((2, -9, 6), (0, 0, 0), fov=30)
         scene = r4.Scene(camera=camera, turned=turned, moved=moved, start=start, circle=circle)
         scene.signals["gap"] = 2 * p.length * abs(np.sin(np.radians(p.angle / 2)))
         scene.signals["solved"] = abs(scene.signals["gap"] - 2 * p.length) < 0.02

@@ -35,7 +35,7 @@ class Lift(r4.Illustration):
         now.scale(r4.vec(1, 1, height + 0.7))
         now.translate(r4.vec(r4.time, 0, -0.7))
         curve = r4.Path([(t, 0, height.at(t)) for t in height.points], interpolation="linear", color="steelblue")
-        camera = r4.Camera((3.7, -16, 3.5), (3.7, 0, 1), fov=33)
+        camera = r4.Camera((3.7, -16, 3.5), (3.7, 0, 1), fov=38)
         scene = r4.Scene(camera=camera, car=car, shaft=shaft, curve=curve, dot=dot, now=now, bar=bar, **axes(10))
         scene.signals["height"] = height
         scene.signals["begins"], scene.signals["ends"] = begins, ends

@@ -122,8 +122,8 @@ class Watcher(r4.Illustration):
 # The boxes of the graph: what the engine calls a cell, what stands on its box, and where that is.
 BOXES = {
     "way": ("the way", (0.6, 4.0)),
-    "fly.matrix": ("fly, turned", (-1.2, 3.0)),
-    "fly.position": ("fly, place", (2.4, 3.0)),
+    "fly.matrix": ("fly's turn", (-1.2, 3.0)),
+    "fly.position": ("fly's place", (2.4, 3.0)),
     "left eye.matrix": ("left eye", (0.35, 2.0)),
     "right eye.matrix": ("right eye", (2.4, 2.0)),
     "(fly.position[2] > 2)": ("> 2 m?", (4.45, 2.0)),
@@ -187,7 +187,7 @@ class Recording(r4.Illustration):
             happened = {0.0: "asleep"} | {i + 1.0: kind for i, (kind, cell) in enumerate(steps) if cell == name}
             paints = {t: r4.color(COLORS.get(kind, "lightgray")) for t, kind in happened.items()}
             box = parts[text] = r4.Box((1.85, 0.1, 0.55), color=r4.keys(paints, interpolation="step"))
-            label = parts[f"{text}?"] = r4.Label(text, height=13)
+            label = parts[f"{text}?"] = r4.Label(text, height=12)
             for each in (box, label):
                 each.translate((x, 0, z))
         for start, stop in ARROWS:
