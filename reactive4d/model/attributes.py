@@ -89,6 +89,7 @@ class Attribute(Settable[T]):
             Reactive4dError: a signal that reads this very attribute.
         """
         content = self.setting.admit(value)
+        self._refuse_if_fixed()
         if is_signal(content):
             if content is self:
                 return
@@ -97,7 +98,14 @@ class Attribute(Settable[T]):
 
     def unassign(self) -> None:
         """Go back to the prototype's, or to the default."""
+        self._refuse_if_fixed()
         self.set_content(INHERITED if self.object.has_prototype else DEFAULT)
+
+    def _refuse_if_fixed(self) -> None:
+        owner = self.object.fixed_by
+        if owner and self.setting.is_structure:
+            error = Reactive4dError(f"the objects of {owner} are fixed: {self.name} cannot be set")
+            raise hint(error, "name all objects when the scene is made; what is there for a while only has `visible`")
 
     def refers(self, content: Any) -> bool:
         """What is alive is a reference."""

@@ -84,6 +84,7 @@ class Object:
         _declare(cls)
 
     born: Place = ()
+    fixed_by: str = ""  # who made it for others: then its members stay
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name[:1] != "_":

@@ -130,6 +130,12 @@ class Scene(Showable, MutableMapping[str, Object]):
     def fix(self, owner: str) -> None:
         """From now on it holds what it holds: readers share it, and know its objects by their names."""
         self._fixed_by = owner
+        todo = list(self.values())
+        while todo:
+            obj = todo.pop()
+            obj.fixed_by = owner
+            members: Any = obj.attribute("members").source if obj.is_group else ()
+            todo.extend([member for _, member in members] if isinstance(members, tuple) else [])  # pyright: ignore
 
     def _refuse_if_fixed(self, *names: str) -> None:
         if self._fixed_by:

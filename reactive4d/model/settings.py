@@ -11,7 +11,7 @@ takes what a signal answers while it is evaluated.
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeAlias, TypeGuard, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeAlias, TypeGuard, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,6 +70,8 @@ class Setting(Generic[T]):
         doc: what it means.
         unit: of its numbers, such as "m" or "deg".
     """
+
+    is_structure: ClassVar[bool] = False  # whether it says which objects there are
 
     def __init__(self, default: Any = None, *, doc: str = "", unit: str = "") -> None:
         self.doc = doc

@@ -325,3 +325,31 @@ def test_a_class_that_nobody_uses_any_more_is_freed():
     gc.collect()
     gc.collect()
     assert [it() for it in gone] == [None] * 4
+
+
+def test_the_members_of_its_groups_are_fixed_as_well():
+    """Of groups in groups, too; what the members are like may be edited, and groups of plain scenes may get others."""
+
+    class Car(r4.Illustration):
+        def build(self) -> r4.Scene:
+            return r4.Scene(car=r4.Group(axle=r4.Group(tyre=r4.Cylinder()), body=r4.Box()))
+
+    car: Any = Car().scene["car"]
+    axle = dict(car.members.at(0.0))["axle"]
+    edits: list[Callable[[], Any]] = [
+        lambda: setattr(car, "members", {"body": r4.Box()}),
+        lambda: setattr(axle, "members", []),
+        lambda: car.assign("members", r4.signal(lambda: ())),
+        lambda: axle.unassign("members"),
+    ]
+    for edit in edits:
+        with pytest.raises(
+            r4.Reactive4dError, match=r"the objects of Car are fixed: (car|axle|group).members cannot be"
+        ):
+            edit()
+    assert [*Car().at(0.0)] == ["car", "car/axle", "car/axle/tyre", "car/body"]
+    axle.visible = False
+    assert not Car().at(0.0)["car/axle"].visible
+    plain: Any = r4.Scene(car=r4.Group(body=r4.Box()))["car"]
+    plain.members = {"body": r4.Box(), "tyre": r4.Cylinder()}
+    assert [name for name, _ in plain.members.at(0.0)] == ["body", "tyre"]

@@ -50,6 +50,8 @@ def _members(value: Any) -> tuple[tuple[str, Object], ...]:
 class Members(Held):
     """Objects by name; a mapping, or a list of objects."""
 
+    is_structure = True
+
     def admit(self, value: Any) -> Any:
         """Pairs of a name and an object."""
         return _members(value) if isinstance(value, Mapping | tuple | list) else super().admit(value)
