@@ -40,15 +40,17 @@ def baked(
     words = " ".join(re.findall(r"[^\W_]+", Path(path).stem))
     called = title or words[:1].upper() + words[1:]
     report = scene.bake(path, times=span, title=called, limit=round(limit * MEGABYTE))
-    yield from summary(Path(path), report.problems, width)
+    yield from summary(Path(path), report.problems, width, report.notes)
 
 
-def summary(path: Path, problems: Sequence[Any], width: int) -> Iterator[str]:
-    """Where a page is, how large it became, and what went wrong in its model."""
+def summary(path: Path, problems: Sequence[Any], width: int, notes: Sequence[str] = ()) -> Iterator[str]:
+    """Where a page is, how large it became, what went wrong in its model, and what its readers cannot reach."""
     yield f"{path}: {sized(path.stat().st_size)}"
     if problems:
         count = len(problems)
         yield from paragraph(f"{count} error{'' if count == 1 else 's'} in the model; the page says so as well:", width)
         for problem in problems[:MOST]:
             yield from paragraph(f"- {problem}", width)
+    for note in notes[:MOST]:
+        yield from paragraph(note, width)
     yield from paragraph("Any browser opens it, with or without a network.", width)

@@ -268,6 +268,9 @@ def _served(
 ) -> Report:
     """Write the file."""
     lead(shown, text)
+    if theme == "dark":
+        for figure in shown:
+            figure.background = theme
     for figure in shown:  # the player of a leader moves those that follow it
         times, leader = figure.table.manifest["times"], figure.leader
         while leader is not None and not times["still"]:

@@ -15,6 +15,7 @@ from reactive4d_widgets.playbacks import Playback
 from reactive4d_widgets.prose import Cast
 from reactive4d_widgets.stills import poster
 from reactive4d_widgets.tables import Table
+from reactive4d_widgets.units import with_unit
 
 __all__ = ["OPTIONS", "Shown", "can_play", "checked_options", "formatted", "worded"]
 
@@ -97,6 +98,7 @@ class Shown:
         source: the name of the figure whose data it shares; its own if it has its own.
         follow: the name of a figure with which it shares a point.
         leader: that figure.
+        background: of its picture, "light" or "dark".
     """
 
     name: str
@@ -107,6 +109,7 @@ class Shown:
     source: str
     follow: str | None = None
     leader: "Shown | None" = None
+    background: str = "light"
 
     @property
     def point(self) -> Mapping[str, Any]:
@@ -191,7 +194,12 @@ class Shown:
             return f'width="{width}" height="{height}" src="data:image/png;base64,{EMPTY}"'
         camera = self._camera(scene.at(t, **given))
         bounds = self.table.manifest["bounds"]
-        kind, data = _lightest(poster(self.thing, t=t, size=SIZE, camera=camera, parameters=given, bounds=bounds))
+        options: Mapping[str, Any] = self.table.manifest["options"]
+        looks = {name: options.get(name, True) for name in ("edges", "shadows")}
+        background = options.get("theme", "auto")
+        looks["background"] = self.background if background == "auto" else background
+        where: Any = {"t": t, "camera": camera, "parameters": given, "bounds": bounds}
+        kind, data = _lightest(poster(self.thing, size=SIZE, **where, **looks))
         source = f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
         return f'width="{width}" height="{height}" src="{source}"'
 
@@ -228,9 +236,7 @@ def formatted(value: Any, spec: str, unit: str) -> str:
     several = hasattr(value, "__len__")
     numbers = [float(x) for x in value] if several else [float(value)]
     text = ", ".join([format(number, spec or ".4g").replace("-", "\u2212") for number in numbers])
-    sign = "°" if unit in ("deg", "degree", "degrees") else unit
-    text = f"({text})" if several else text
-    return f"{text}{sign}" if sign[:1] in "°%′″" else f"{text}\u202f{sign}"
+    return with_unit(f"({text})" if several else text, unit)
 
 
 def worded(wire: Any, spec: str, entry: Mapping[str, Any]) -> str:

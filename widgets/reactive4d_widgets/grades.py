@@ -11,6 +11,7 @@ from typing import Any
 from reactive4d.illustrations.controls import Control, listed
 from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.sweeps import Asker
+from reactive4d_widgets.units import with_unit
 
 __all__ = ["Readers", "described", "readers_of"]
 
@@ -28,6 +29,7 @@ _PARTS = {
     "text": "the text",
 }
 SEVERAL = 3
+NUMERIC = frozenset({"number", "integer", "range", "xy"})
 
 
 def readers_of(segments: Sequence[Segment]) -> dict[str, list[str]]:
@@ -72,16 +74,27 @@ def described(
 
 def _why(control: Control, value: Any, channels: Sequence[str]) -> str:
     """A sentence for the reader, which names what would have to be computed again."""
-    shown = control.text(control.encode(value)) + (f" {control.unit}" if control.unit else "")
+    shown = _shown(control, listed(control.encode(value)))
     parts: dict[str, list[str]] = {}
     for channel in channels:
         node, _, what = channel.rpartition("#")
         key = what.removeprefix("values.") if what.startswith("values.") else _PARTS.get(what, "the settings")
         parts.setdefault(key, []).append(node)
     told = [_told(part, [node for node in nodes if node]) for part, nodes in parts.items()]
-    listed = " and ".join(told[:SEVERAL]) + (" and more" if len(told) > SEVERAL else "")
+    all_told = " and ".join(told[:SEVERAL]) + (" and more" if len(told) > SEVERAL else "")
     label = control.label.lower()
-    return f"This page holds {label} = {shown} only; for other values {listed} would need a live kernel."
+    return f"This page holds {label} = {shown} only; for other values {all_told} would need a live kernel."
+
+
+def _shown(control: Control, wire: Any) -> str:
+    """A value as its control writes it; a choice by its name."""
+    if control.kind == "select":
+        named = zip(control.options or (), control.labels or (), strict=True)
+        return next((label for option, label in named if option == wire), str(wire))
+    if control.kind == "boolean" and wire is not None:
+        return "on" if wire else "off"
+    text = control.text(wire) if not isinstance(wire, float) or not wire.is_integer() else f"{wire:.0f}"
+    return with_unit(text.replace("-", "\N{MINUS SIGN}"), control.unit) if control.kind in NUMERIC else text
 
 
 def _told(part: str, nodes: Sequence[str]) -> str:

@@ -237,6 +237,34 @@ def test_a_poster_shows_where_the_page_opens(tmp_path: Path) -> None:
     assert len(data) < 60_000
 
 
+@pytest.mark.parametrize(
+    ("options", "theme", "looks"),
+    [
+        ({}, "auto", {"edges": True, "shadows": True, "background": "light"}),
+        ({"edges": False, "shadows": False}, "auto", {"edges": False, "shadows": False, "background": "light"}),
+        ({"theme": "dark"}, "auto", {"edges": True, "shadows": True, "background": "dark"}),
+        ({}, "dark", {"edges": True, "shadows": True, "background": "dark"}),
+        ({"theme": "light"}, "dark", {"edges": True, "shadows": True, "background": "light"}),
+    ],
+)
+def test_a_poster_looks_as_its_figure_does(
+    options: Any, theme: str, looks: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Edges, shadows and surroundings are those that the author wants."""
+    made: list[dict[str, Any]] = []
+
+    def drawn(thing: Any, **asked: Any) -> bytes:
+        made.append(asked)
+        file = io.BytesIO()
+        Image.new("RGB", (8, 5)).save(file, "PNG")
+        return file.getvalue()
+
+    monkeypatch.setattr(figures, "poster", drawn)
+    monkeypatch.setattr(figures, "can_draw", lambda: True)
+    bake(ball(), tmp_path / "page.html", options=options, theme=theme)
+    assert [{name: one[name] for name in looks} for one in made] == [looks]
+
+
 def test_without_opengl_a_page_has_no_pictures_but_their_texts(tmp_path: Path) -> None:
     """One pixel stands for each."""
     (image,) = seen(bake(Swing, tmp_path / "page.html").path).all("img")

@@ -72,7 +72,7 @@ def test_what_was_not_given_is_fixed_and_says_why(bake: Any) -> None:
     entry = bake(Pendulum, times=(0, 5)).parameter("length")
     assert entry["grade"] == "fixed"
     assert entry["why"] == (
-        "This page holds length = 1.0 m only; for other values the shape of rod would need a live kernel."
+        "This page holds length = 1\u202fm only; for other values the shape of rod would need a live kernel."
     )
 
 
