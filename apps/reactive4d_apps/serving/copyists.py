@@ -33,18 +33,18 @@ def main(number: int) -> None:
     said = _heard(line)
     if said is None:
         return
+    desk = _desk(said)
     try:
-        desk = _desk(said)
         _tell(line, TEXT, b"{}")
         while (order := _heard(line)) is not None:
             signal.setitimer(signal.ITIMER_REAL, said["seconds"] + GRACE)
-            kind, data = desk.answered(order)
+            kind, data = _answered(desk, order)
             _tell(line, kind, data)
             signal.setitimer(signal.ITIMER_REAL, 0.0)
     except MemoryError:
         os._exit(MEMORY)
-    except OSError:
-        return  # nobody is there any more
+    except ConnectionError:
+        os._exit(0)  # nobody is there any more, and nothing is to be put away
 
 
 def _desk(said: dict[str, Any]) -> Any:
@@ -56,6 +56,17 @@ def _desk(said: dict[str, Any]) -> Any:
     desk.prepare()
     confine(memory=said["memory"], seconds=said["computing"], folder=said["folder"], files=said["files"])
     return desk
+
+
+def _answered(desk: Any, order: dict[str, Any]) -> tuple[int, bytes]:
+    """A mistake of ours is an answer: the copy goes on."""
+    try:
+        return desk.answered(order)
+    except MemoryError:
+        raise
+    except Exception as error:  # noqa: BLE001
+        text = f"this went wrong in your copy: {type(error).__name__}"
+        return ERROR, json.dumps({"id": order.get("id"), "type": "error", "text": text}).encode()
 
 
 def _heard(line: socket.socket) -> Any:

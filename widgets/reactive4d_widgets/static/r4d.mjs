@@ -3253,14 +3253,15 @@ p { margin: 6px 0; }
 textarea:focus-visible { outline: 0; }
 .lines, textarea {
   font: 13px/1.5 ui-monospace, "SF Mono", "DejaVu Sans Mono", Menlo, Consolas, monospace; padding: 8px 0; margin: 0;
-  tab-size: 4; max-height: 28rem;
+  tab-size: 4;
 }
 @media (pointer: coarse) {
   .lines, textarea { font-size: 16px; }
   .keys { display: none; }
 }
 .lines {
-  list-style: none; overflow: hidden; text-align: right; color: var(--soft); background: var(--wash);
+  height: 0; min-height: 100%; list-style: none; overflow: hidden; text-align: right; color: var(--soft);
+  background: var(--wash);
   user-select: none; -webkit-user-select: none; font-variant-numeric: tabular-nums;
 }
 .lines li { padding: 0 8px 0 10px; }
