@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from typing import Any
+from urllib.request import urlopen
 
 import pytest
 
@@ -34,3 +35,22 @@ def test_a_mistake_in_the_text_is_told_to_whoever_serves_it(
     """And not, as an error of the server, to its first reader."""
     with pytest.raises((UnknownNameError, ShapeError), match=told):
         served(r4.Scene(ball=r4.Sphere()), **given)
+
+
+def test_formulas_of_a_served_page_are_set(served: Callable[..., Server]) -> None:
+    """As in a baked page: MathML, which the page's policy needs to allow nothing for; in a class's own words too."""
+
+    class Ball(r4.Illustration):
+        r"""A ball of $r^2 < 1$.
+
+        $$\frac{4}{3} \pi r^3$$
+        """
+
+        def build(self) -> r4.Scene:
+            return r4.Scene(ball=r4.Sphere())
+
+    for server in (served(Ball), served(r4.Scene(ball=r4.Sphere()), text=r"It is $\sqrt{2}$ wide.")):
+        with urlopen(server.address) as answer:
+            page = answer.read().decode()
+        assert "<math" in page
+        assert "$" not in page.partition("<body>")[2].partition("<script")[0].replace("data:", "")
