@@ -1,16 +1,21 @@
 """The chapters of the book: their programs run, and print what stands below them."""
 
 import contextlib
+import importlib
 import io
 import re
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qsl
 
 import pytest
 
 CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "book").glob("[0-9]*.md"))
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
+FIGURE = re.compile(r"^`{3,}\{illustration\} (\S+:\S+)\n((?::.*\n)*)", re.MULTILINE)
+OPTION = re.compile(r"^:(\w+): *(.*)$", re.MULTILINE)
+CHECK = re.compile(r"^`{5}\{exercise\}[^\n]*\n:check: (\w+)\.(\w+)\n(.*?)^`{5}$", re.MULTILINE | re.DOTALL)
 
 
 @pytest.mark.parametrize("page", CHAPTERS, ids=lambda page: page.stem)
@@ -35,3 +40,42 @@ def test_the_scripts_of_the_chapter_on_scripts_are_those_that_are_shown():
     scenes = files("reactive4d.scefo") / "scenes"
     for name, part in zip(("figure1", "figure1_moving"), parts, strict=True):
         assert (scenes / f"{name}.scefo").read_text(encoding="utf-8").endswith(part)
+
+
+def checks() -> list[Any]:
+    """Every exercise with a check: its figure's class, the name of what is checked, where it opens, what solves it."""
+    found: list[Any] = []
+    for page in CHAPTERS:
+        text = page.read_text(encoding="utf-8")
+        for figure, name, body in CHECK.findall(text):
+            (place, options) = next(
+                (place, dict(OPTION.findall(given)))
+                for place, given in FIGURE.findall(text)
+                if f":name: {figure}\n" in given
+            )
+            links = [dict(parse_qsl(link)) for link in re.findall(rf"<{figure}\.([^>]+)>", body.split("{solution}")[1])]
+            opening = dict(parse_qsl(options.get("point", "")))
+            found.append(pytest.param(place, name, opening, links, id=f"{page.stem}-{figure}"))
+    return found
+
+
+@pytest.mark.parametrize(("place", "name", "opening", "links"), checks())
+def test_an_exercise_is_not_solved_at_first_and_is_by_what_its_solution_says(
+    place: str, name: str, opening: dict[str, str], links: list[dict[str, str]]
+):
+    """The first link of the solution does it, from where the figure opens."""
+    module, _, cls = place.partition(":")
+    fig = getattr(importlib.import_module(module), cls)()
+    solved = fig.scene.signals[name]
+    assert not solved.at(0.0, **given(opening))
+    assert solved.at(0.0, **given(opening | links[0]))
+
+
+def given(point: dict[str, str]) -> dict[str, float]:
+    """The parameters of a point as text."""
+    return {name: float(value) for name, value in point.items() if name != "t"}
+
+
+def test_most_chapters_have_an_exercise_whose_solution_is_checked():
+    """Which ones do."""
+    assert sorted({case.id[:2] for case in checks()}) == ["01", "02", "03", "05", "06", "07", "09", "10"]

@@ -31,7 +31,10 @@ class Rivets(r4.Illustration):
         shown.translate((-2.6, 0, 0))
         name = r4.Label("the prototype", at=(-2.6, 0, 0.2), height=14)
         camera = r4.Camera((-0.6, -9, 2.2), (-0.6, 0, 0.5), fov=32)
-        return r4.Scene({"camera": camera, "shown": shown, "name": name, "hub": hub, **copies})
+        scene = r4.Scene({"camera": camera, "shown": shown, "name": name, "hub": hub, **copies})
+        scene.signals["foot"] = 1 - 0.25 * p.size  # from the axis of the hub, whose radius is 0.8 m
+        scene.signals["solved"] = abs(scene.signals["foot"] - 0.8) < 0.008
+        return scene
 
 
 OUTLINES = {

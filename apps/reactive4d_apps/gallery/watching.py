@@ -116,6 +116,7 @@ class Watcher(r4.Illustration):
         parts["camera"] = r4.Camera((0.9, -8.2, 2.6), (0.05, -0.4, 1.5), fov=27)
         scene = r4.Scene(parts)
         scene.handle(held, x=p.x, z=p.z, label="where the fly is at 4 s")
+        scene.signals["solved"] = p.z <= 2
         return scene
 
 
