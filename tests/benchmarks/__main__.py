@@ -11,6 +11,7 @@ from .asking import asking
 from .deforming import deforming
 from .dragging import dragging
 from .editing import editing
+from .filming import filming
 from .graph_speed import graph_speed
 from .growth import growth
 from .instructions import instructions
@@ -39,6 +40,7 @@ BENCHMARKS = {
     "pages": paging,
     "serving": serving,
     "sweeps": sweeping,
+    "films": filming,
     "dragging": dragging,
     "rerunning": rerunning,
 }
