@@ -134,7 +134,7 @@ SHOWN = """(figure) => {
   }]);
   return {
     time: snapshot.time, parameters: { ...snapshot.parameters }, nodes: Object.fromEntries(nodes),
-    values: Object.fromEntries(snapshot.values), alt: snapshot.alt, problems: snapshot.problems.map((p) => ({ ...p })),
+    values: Object.fromEntries(snapshot.values), problems: snapshot.problems.map((p) => ({ ...p })),
   };
 }"""
 POINTS = """(figure, name) => {

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -13,6 +14,7 @@ from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.playbacks import Playback
 from reactive4d_widgets.prose import Cast
+from reactive4d_widgets.sights import text_of
 from reactive4d_widgets.stills import poster
 from reactive4d_widgets.tables import Table
 from reactive4d_widgets.units import with_unit
@@ -155,7 +157,7 @@ class Shown:
             numbers,
             frozenset(entry["name"] for entry in self.table.manifest["parameters"]),
             frozenset(node["name"] for node in self.table.manifest["nodes"]),
-            lambda caption: self.html(caption, self._played(played, "#alt")),
+            lambda caption: self.html(caption, self._told()),
         )
 
     def _played(self, played: Playback, channel: str) -> Any:
@@ -165,6 +167,11 @@ class Shown:
             return played.at(channel, t, wires) if played.knows(channel, t, wires) else None
         except RuntimeError:
             return None
+
+    def _told(self) -> str:
+        """What is to be seen where the figure opens."""
+        low, high = self.table.manifest["bounds"]
+        return text_of(self.plan, self.point["time"], self._values, math.dist(low, high) or 1.0)
 
     def html(self, caption: str, alt: str | None) -> str:
         """The figure as it stands in a page.

@@ -15,12 +15,11 @@ from typing import Any
 
 from reactive4d.errors import PageTooLargeError, Reactive4dError, ShapeError, hint
 from reactive4d.illustrations import subject
-from reactive4d.illustrations.controls import listed
 from reactive4d_widgets.bundles import packed
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.estimates import estimated, refuse_if_too_large
-from reactive4d_widgets.live import Reader
+from reactive4d_widgets.live import Model
 from reactive4d_widgets.loaders import KEEPER
 from reactive4d_widgets.pages import inert
 from reactive4d_widgets.plans import Plan, planned
@@ -181,12 +180,7 @@ def _large(size: int, limit: float) -> str:
 
 def _alt(thing: Any) -> str:
     """The text in place of the picture, where the figure opens."""
-    reader = Reader(thing)
-    try:
-        point = subject(thing).point
-        ask = {"seq": 1, "revision": 1, "times": [point.time], "channels": ["#alt"]}
-        wires = {name: listed(wire) for name, wire in point.parameters.items()}
-        reply = reader.handle({"type": "ask", "id": 1, "parameters": wires, **ask}) or {}
-    finally:
-        reader.close()
-    return next((one["track"]["value"] for one in reply.get("segments", ()) if "track" in one), "")
+    shown = subject(thing)
+    wires = shown.point.parameters
+    values = {one.name: one.decode(wires[one.name]) for one in shown.controls if one.name in wires}
+    return Model.of(thing).told(shown.point.time, values)

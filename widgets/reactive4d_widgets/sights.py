@@ -3,7 +3,6 @@
 Nothing is asked here that the table does not ask as well: channels at ticks.
 """
 
-import itertools
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -16,16 +15,12 @@ from reactive4d.model.nodes import Node
 from reactive4d_widgets.alternatives import Sight, described
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Seat
-from reactive4d_widgets.segments import Segment
 from reactive4d_widgets.views import View, holding, outermost
-from reactive4d_widgets.writing import held
 
-__all__ = ["alternatives", "outline", "text_of", "view"]
+__all__ = ["outline", "text_of", "view"]
 
 Array = NDArray[np.float64]
 TIMES = 9
-MOST_TEXTS = 120
-TEXTS = 13
 
 
 class _UnseenError(Exception):
@@ -69,15 +64,11 @@ def _node(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any]) -> Node
     return Node(kind=kind, matrix=matrix, color=np.ones(4), visible=True, drawn=shown, primitive=drawn)
 
 
-def _said(
-    plan: Plan, seat: Seat, what: str, t: float, assigned: Mapping[str, Any], reads: set[str] | None = None
-) -> Any:
+def _said(plan: Plan, seat: Seat, what: str, t: float, assigned: Mapping[str, Any]) -> Any:
     channel = seat.channels.get(what)
     if channel is None:
         raise _UnseenError
     answer = plan.asker.ask(channel.signal, t, assigned)
-    if reads is not None:
-        reads.update(answer.parameters)
     if answer.error is not None:
         raise _UnseenError
     return answer.value
@@ -86,58 +77,39 @@ def _said(
 # -- the text alternative --------------------------------------------------------------------------------------------
 
 
-def alternatives(plan: Plan, size: float) -> list[Segment]:
-    """The channel `#alt`: what can be seen, at a dozen ticks; for baked values as far as there are not too many."""
-    span, asker = plan.span, plan.asker
-    reads: set[str] = set()
-    text_of(plan, span.start, {}, size, reads)
-    baked = [name for name in asker.stops if name in reads]
-    combinations = list(itertools.islice(asker.combinations(baked), MOST_TEXTS + 1))
-    if len(combinations) > MOST_TEXTS // 2:
-        combinations = [{name: asker.base[name] for name in baked}]
-    times = span.few(max(2, min(TEXTS, MOST_TEXTS // len(combinations))))
-    found: list[Segment] = []
-    for assigned in combinations:
-        texts = [text_of(plan, t, assigned, size, reads) for t in times]
-        where = {name: {**asker.base, **assigned}[name] for name in sorted(reads)}
-        found.append(Segment("#alt", span.start, span.end, where, held(times, texts)))
-    return found
-
-
-def text_of(plan: Plan, t: float, assigned: Mapping[str, Any], size: float, reads: set[str]) -> str:
-    """What can be seen at one time; `reads` is told which parameters that follows from."""
-    sights = list(_sights(plan, t, assigned, reads))
+def text_of(plan: Plan, t: float, assigned: Mapping[str, Any], size: float) -> str:
+    """What can be seen at one time, for some values of parameters; `size` is the scene's, metres."""
+    sights = list(_sights(plan, t, assigned))
     values: dict[str, Any] = {}
     for channel in plan.values:
         answer = plan.asker.ask(channel.signal, t, assigned)
-        reads.update(answer.parameters)
         if answer.error is None:
             values[channel.what.removeprefix("values.")] = answer.value
     return described(sights, values, size=size)
 
 
-def _sights(plan: Plan, t: float, assigned: Mapping[str, Any], reads: set[str]) -> Iterator[Sight]:
+def _sights(plan: Plan, t: float, assigned: Mapping[str, Any]) -> Iterator[Sight]:
     for seat in plan.seats:
         try:
-            if not _said(plan, seat, "visible", t, assigned, reads):
+            if not _said(plan, seat, "visible", t, assigned):
                 continue
-            drawn = _said(plan, seat, "drawn", t, assigned, reads)
+            drawn = _said(plan, seat, "drawn", t, assigned)
             if drawn in ("none", "camera"):
                 continue
-            color = _said(plan, seat, "color", t, assigned, reads)
-            place = _said(plan, seat, "matrix", t, assigned, reads)[:3, 3]
-            text = str(_said(plan, seat, "text", t, assigned, reads)) if drawn == "label" else ""
+            color = _said(plan, seat, "color", t, assigned)
+            place = _said(plan, seat, "matrix", t, assigned)[:3, 3]
+            text = str(_said(plan, seat, "text", t, assigned)) if drawn == "label" else ""
             if drawn in ("mesh", "lines", "points"):
-                place = _middle(plan, seat, t, assigned, reads)
+                place = _middle(plan, seat, t, assigned)
         except _UnseenError:
             continue
         yield Sight(seat.name, seat.kind, drawn, color, place, text)
 
 
-def _middle(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any], reads: set[str]) -> Array:
+def _middle(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any]) -> Array:
     """Where the middle of a node's box is."""
-    points = _said(plan, seat, "points", t, assigned, reads)
-    matrix = _said(plan, seat, "matrix", t, assigned, reads)
+    points = _said(plan, seat, "points", t, assigned)
+    matrix = _said(plan, seat, "matrix", t, assigned)
     if points is None or not len(points):
         return matrix[:3, 3]
     middle = (points.min(axis=0).astype(np.float64) + points.max(axis=0)) / 2.0

@@ -42,7 +42,7 @@ class Opening:
         figure: what it shows, and how.
         plan: of its model.
         manifest: of its model.
-        segments: what its values and its alternative text are where it opens.
+        segments: what its values are where it opens.
         script: that its reader may edit; None if there is none.
     """
 

@@ -191,7 +191,7 @@ def _told(plan: Plan, baking: Baking, t: float, given: Mapping[str, Any]) -> str
     """What is to be seen, in words; what the figure is called where that is an error."""
     low, high = baking.manifest["bounds"]
     try:
-        return text_of(plan, t, given, math.dist(low, high) or 1.0, set())
+        return text_of(plan, t, given, math.dist(low, high) or 1.0)
     except EvaluationError:
         return str(baking.manifest["title"])
 

@@ -124,15 +124,6 @@ def test_what_jumps_at_a_key_jumps_there_while_time_runs() -> None:
         agrees(viewer, t)
 
 
-def test_the_text_in_place_of_the_picture_is_asked_seldom_while_time_runs(viewer: Viewer) -> None:
-    """A dozen times over the whole span."""
-    viewer.show(0.0)
-    for k in range(1, 200):
-        text = viewer.look("#alt", k * 0.05)
-    assert "sphere" in text
-    assert sum("#alt" in ask["channels"] for ask in viewer.asks) <= 14
-
-
 def test_one_model_is_shared_by_all_who_look_at_a_scene(viewer: Viewer) -> None:
     """And goes when the last one does."""
     other = Viewer(viewer.reader.thing, title="Another")

@@ -48,7 +48,7 @@ def test_readers_and_editors_on_many_threads_do_not_disturb_each_other() -> None
         try:
             while not is_over.is_set():
                 t = r.choice([0.0, 1.0, 2.5, r.random() * 5])
-                names = ["left#matrix", "right#matrix", "#values.place", "bent#points", "bent#topology", "#alt"]
+                names = ["left#matrix", "right#matrix", "#values.place", "bent#points", "bent#topology"]
                 reply = viewer.sent(
                     {
                         "type": "ask",

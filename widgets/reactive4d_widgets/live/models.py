@@ -5,7 +5,6 @@ to find that out: answers have witnesses, tracks have grounds. An ask is answere
 overtakes while it is computed is computed again, and after a few rounds edits wait.
 """
 
-import copy
 import math
 import threading
 from collections.abc import Iterable, Mapping, Sequence
@@ -21,17 +20,16 @@ from reactive4d_widgets.live.layouts import Layout
 from reactive4d_widgets.live.manifests import Frame, framed
 from reactive4d_widgets.live.records import Record, Records
 from reactive4d_widgets.live.stales import Stales
-from reactive4d_widgets.live.texts import text_at
 from reactive4d_widgets.live.vaults import Vault
 from reactive4d_widgets.live.witnesses import settled
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.seats import Channel
+from reactive4d_widgets.sights import text_of
 
 __all__ = ["Model"]
 
 INF = math.inf
 PATIENCE = 4  # rounds after which edits wait for an answer
-ALT = "#alt"
 
 _models: "WeakValueDictionary[int, Model]" = WeakValueDictionary()
 _making = threading.Lock()
@@ -108,6 +106,15 @@ class Model:
             found = self._frame = framed(planned(self.thing, times=self.times))
         return found
 
+    def told(self, t: float, values: Mapping[str, Any]) -> str:
+        """What is to be seen, as a text.
+
+        Args:
+            t: seconds.
+            values: of the parameters, as signals take them.
+        """
+        return text_of(self.plan, t, values, self.frame.size)
+
     # -- readers -----------------------------------------------------------------------------------------------------
 
     def join(self, reader: Any) -> None:
@@ -160,19 +167,15 @@ class Model:
     def _record(self, name: str, place: Place) -> Record:
         layout = self._layout
         channel = layout.channels.get(name)
-        if channel is None and name != ALT:
+        if channel is None:
             return _unknown(name)
-        if channel is not None:
-            track = layout.tracking.record(channel, place.t, place.values)
-            if track is not None:
-                return track
+        track = layout.tracking.record(channel, place.t, place.values)
+        if track is not None:
+            return track
         known = self._records.find(name, place.t, place.wires, sampled=place.is_running)
         if known is not None and all(ref in self.vault for ref in known.refs):
             return known
-        if channel is not None:
-            made = layout.answerer.record(channel, place)
-        else:
-            made = text_at(copy.copy(layout.plan), place, 1.0 if self._frame is None else self._frame.size)
+        made = layout.answerer.record(channel, place)
         with settled():
             if layout is self._layout and made.holds():
                 self._records.put(made)

@@ -1,7 +1,6 @@
-/** All of a figure that is watched: its nodes, its named values, and the text in its place. */
+/** All of a figure that is watched: its nodes, and its named values. */
 import { Cell, isSame } from "./cells.js";
 import { readValue } from "./channels.js";
-import { text } from "./checks.js";
 import { NamedMap } from "./maps.js";
 import { Mixer } from "./mixing.js";
 import { NodeWatch } from "./nodes.js";
@@ -24,7 +23,6 @@ export class Watch {
   #values;
   /** @type {string[]} */
   #names;
-  #alt = new Cell("#alt", (value) => text(value, "alt"));
   #index;
   /** @type {ReadonlyMap<string, NodeState>} */
   #nodes = new Map();
@@ -61,7 +59,7 @@ export class Watch {
     const scope = { ...lack, store: this.store, blobs: this.blobs, mixer: this.#mixer };
     let isComplete = true;
     for (const watch of this.watches) if (!watch.update(scope, t, parameters)) isComplete = false;
-    for (const cell of [...this.#values, this.#alt]) {
+    for (const cell of this.#values) {
       cell.update(this.store, t, parameters);
       if (cell.state !== "missing" || scope.isRefused(cell.channel)) continue;
       scope.missing.push(cell.channel);
@@ -73,9 +71,8 @@ export class Watch {
   /** What was looked at last, when nothing was missing. @param {number} revision @param {number} time
    * @param {Parameters} parameters @returns {Snapshot} */
   snapshot(revision, time, parameters) {
-    const alt = this.#alt.state === "value" ? /** @type {string} */ (this.#alt.value) : "";
     const [nodes, values, problems] = [this.#gatherNodes(), this.#gatherValues(), this.#gatherProblems()];
-    return Object.freeze({ revision, time, parameters, nodes, values, alt, problems });
+    return Object.freeze({ revision, time, parameters, nodes, values, problems });
   }
 
   /** The same map as long as no node has changed. */

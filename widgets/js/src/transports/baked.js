@@ -122,8 +122,8 @@ function holds({ when }, time) {
   return Array.isArray(when) && (when[0] ?? -Infinity) <= time && time < (when[1] ?? Infinity);
 }
 
-/** That there is no answer, from the one before to the one after. The text in place of a figure may be missing: then
- * it is empty. @param {string} channel @param {WireSegment[]} all @param {WireSegment[]} matching @param {number} time
+/** That there is no answer, from the one before to the one after.
+ * @param {string} channel @param {WireSegment[]} all @param {WireSegment[]} matching @param {number} time
  * @param {Parameters} parameters @returns {WireSegment} */
 function nothing(channel, all, matching, time, parameters) {
   const stops = matching.map(({ when }) => when[1] ?? Infinity).filter((stop) => stop <= time);
@@ -133,12 +133,8 @@ function nothing(channel, all, matching, time, parameters) {
   for (const segment of all) {
     for (const parameter of Object.keys(segment.where ?? {})) where[parameter] = parameters[parameter] ?? null;
   }
-  const made = {
-    channel, where,
-    when: /** @type {[number|null, number|null]} */ ([Number.isFinite(start) ? start : null,
-      Number.isFinite(stop) ? stop : null]),
-  };
-  return channel === "#alt" ? { ...made, track: { kind: "const", value: "" } } : { ...made, error: NOTHING };
+  const end = (/** @type {number} */ t) => (Number.isFinite(t) ? t : null);
+  return { channel, where, when: [end(start), end(stop)], error: NOTHING };
 }
 
 const REF = /^[0-9a-f]{32}$/;

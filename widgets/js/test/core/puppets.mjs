@@ -73,17 +73,19 @@ export class Puppet {
   }
 }
 
-/** A manifest with no nodes and one value, `x`, and a parameter `a` from 0 to 10. @param {object} [more] */
+/** A manifest with no nodes, two values, `x` and `y`, and a parameter `a` from 0 to 10. @param {object} [more] */
 export const plain = (more) => ({
   format: "reactive4d/1", name: "plain", revision: 1, times: { start: 0, stop: 10, rate: 10, marks: [] },
-  values: [{ name: "x" }], parameters: [{ name: "a", kind: "number", default: 0, bounds: [0, 10] }], ...more,
+  values: [{ name: "x" }, { name: "y" }],
+  parameters: [{ name: "a", kind: "number", default: 0, bounds: [0, 10] }],
+  ...more,
 });
 
 /** All that is asked for at one point of such a figure. @param {Ask} ask @param {any} [x] */
 export const said = ({ times, parameters, channels }, x = times[0] * 100 + Number(parameters.a)) => ({
   segments: channels.map((channel) => ({
     channel, when: [times[0], times[0] + 0.001], where: { a: parameters.a },
-    track: { kind: "const", value: channel === "#alt" ? "alt" : x },
+    track: { kind: "const", value: x },
   })),
 });
 

@@ -19,12 +19,12 @@ test("nothing is committed before the session is open, and everything asked for 
   assert.equal(session.snapshot, null);
   await pause();
   assert.deepEqual(puppet.asks.map(({ seq, revision, times, channels }) => ({ seq, revision, times, channels })),
-    [{ seq: 1, revision: 1, times: [0], channels: ["#values.x", "#alt"] }]);
+    [{ seq: 1, revision: 1, times: [0], channels: ["#values.x", "#values.y"] }]);
   assert.deepEqual({ ...puppet.asks[0].parameters }, { a: 0 });
   const next = committed(session);
   puppet.open_[0].answer(said(puppet.asks[0]));
   const snapshot = await next;
-  assert.deepEqual([snapshot.revision, snapshot.time, snapshot.values.get("x"), snapshot.alt], [1, 0, 0, "alt"]);
+  assert.deepEqual([snapshot.revision, snapshot.time, snapshot.values.get("x")], [1, 0, 0]);
   assert.ok(Object.isFrozen(snapshot));
 });
 
@@ -64,7 +64,7 @@ test("what is committed is of one point: a half answer is not shown", async () =
   puppet.open_[0].answer({ segments: segments.slice(0, 1) });
   await pause();
   assert.equal(session.snapshot?.time, 3, "what was asked for and not answered is left out");
-  assert.deepEqual([session.snapshot?.values.get("x"), session.snapshot?.alt], [300, ""]);
+  assert.deepEqual([...session.snapshot?.values ?? []], [["x", 300], ["y", null]]);
   session.set({ time: 4 });
   puppet.open_[0].answer({ segments: said(puppet.asks[2]).segments.slice(1) });
   await rested(session);
@@ -146,7 +146,7 @@ test("a bad answer is refused as a whole, and says where it is bad", async () =>
   const problems = [];
   session.on("problem", ({ text }) => problems.push(text));
   session.set({ time: 3 });
-  const bad = { channel: "#alt", when: [3, 2], where: {}, track: { kind: "const", value: 1 } };
+  const bad = { channel: "#values.y", when: [3, 2], where: {}, track: { kind: "const", value: 1 } };
   puppet.open_[0].answer({ segments: [...said(puppet.asks[1]).segments, bad] });
   await pause();
   assert.match(problems[0], /answer\.segments\[2\]\.when: expected a start before the stop, got 3 and 2/);
