@@ -141,7 +141,7 @@ class Pantry:
 
         options = checked_options(wish.options, plan.controls)
         made = tabulated(plan, options=options, survey=survey)
-        table = {"manifest": made.manifest, "segments": made.segments, "chunks": made.chunks}
+        table = made.to_data()
         problems = [str(problem) for problem in made.problems]
         notes = [*_fixed(plan, made.manifest)]
         self.folder.mkdir(parents=True, exist_ok=True)
