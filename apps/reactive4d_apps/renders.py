@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from reactive4d.devices import device
-from reactive4d.errors import ParameterError, ShapeError, TimeError, hint
+from reactive4d.errors import ParameterError, Reactive4dError, ShapeError, TimeError, hint
 from reactive4d_apps.phrases import sized
 from reactive4d_apps.places import found
 from reactive4d_apps.words import values_of
@@ -67,7 +67,10 @@ def rendered(words: argparse.Namespace) -> Iterator[str]:
         options["size"] = _size(words.size)
     options = {name: value for name, value in options.items() if value is not None}
     options |= {name: False for name in ("edges", "shadows", "loop") if not getattr(words, name)}
-    device("render")(found(words.subject), words.output, parameters=parameters, **options)
+    try:
+        device("render")(found(words.subject), words.output, parameters=parameters, **options)
+    except KeyboardInterrupt:
+        raise Reactive4dError(f"{words.output}: stopped before it was whole, and not written") from None
     yield f"{words.output}: {sized(words.output.stat().st_size)}"
 
 

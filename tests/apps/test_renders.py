@@ -1,5 +1,9 @@
 """The command `reactive4d render`: stills, films and models from the command line."""
 
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -95,3 +99,19 @@ def test_other_words_are_refused_as_everywhere(rod: str, capsys: pytest.CaptureF
     with pytest.raises(SystemExit):
         main(["bake", "a.scefo", "--title", "a", "length=2"])
     assert "unrecognized arguments: length=2" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("_drawn")
+@pytest.mark.skipif(sys.platform == "win32", reason="ctrl-C is no signal there")
+def test_ctrl_c_leaves_no_half_film(rod: str, tmp_path: Path):
+    """It is told in a line, and the folder is as it was."""
+    before = sorted(path.name for path in tmp_path.iterdir())
+    words = ["render", rod, "long.webp", "--times", "0:1000", "--size", "320x240"]
+    process = subprocess.Popen([sys.executable, "-m", "reactive4d", *words], stderr=subprocess.PIPE, encoding="utf-8")
+    while not list(tmp_path.glob(".long.webp.*")) and process.poll() is None:
+        time.sleep(0.01)  # until it writes
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=120)[1]
+    assert process.returncode == 1
+    assert said.splitlines() == ["reactive4d:", "  long.webp: stopped before it was whole, and not written"]
+    assert {path.name for path in tmp_path.iterdir()} - {"__pycache__"} == set(before)
