@@ -300,6 +300,40 @@ def test_who_floods_is_read_no_faster_than_they_may_send(answered):
     assert 0 < read[0] < 10_000
 
 
+@pytest.mark.parametrize("opcode", [0x81, 0x82, 0x89, 0x8A], ids=["texts", "bytes", "pings", "pongs"])
+def test_who_floods_with_what_has_no_length_is_read_no_faster(answered, opcode):
+    """Signs of life, and messages without a letter, fill no queue: they count all the same, and others are answered."""
+    server = answered(Puppet, rate=50.0, burst=20.0, faults=10**9)
+
+    async def work():
+        async with client(server.address, "puppet", autoping=False) as liar:
+            transport = liar.socket._writer.transport
+            for _ in range(400):
+                transport.write((bytes([opcode, 0x80]) + bytes(4)) * 500)
+            for _ in range(5):
+                await is_answered(server.address)
+            (line,) = [line for line in server.hall.lines if line.name == "reader 1 of puppet"]
+            assert 0 < line.heard < 10_000
+            held = len(line.socket._reader._buffer)
+            assert held < 100_000, "what was sent is kept"
+            transport.abort()
+
+    run(work)
+
+
+def test_a_sign_of_life_is_answered(answered):
+    """With what it held, as the protocol of web sockets has it."""
+
+    async def work():
+        async with client(answered(Puppet).address, "puppet", autoping=False) as reader:
+            await reader.socket.ping(b"are you there")
+            while (heard := await reader.socket.receive()).type.name != "PONG":
+                pass
+            assert bytes(heard.data) == b"are you there"
+
+    run(work)
+
+
 def test_who_takes_nothing_is_cut_off_and_holds_up_nobody(answered, caplog):
     """What is sent to them piles up to what the system keeps; others are answered while it does."""
     server = answered(Puppet, sending=1.0)

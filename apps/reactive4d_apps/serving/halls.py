@@ -181,6 +181,7 @@ class Hall:
         socket = web.WebSocketResponse(
             max_msg_size=self.limits.message,
             heartbeat=self.limits.pulse,
+            autoping=False,  # a sign of life counts as any other message
             compress=False,  # what is sent was packed already; and nothing can be blown up
             timeout=1.0,
         )
@@ -190,7 +191,9 @@ class Hall:
             await socket.prepare(request)
             title, transport = called.format(next(self._numbers)), request.transport
             abort = transport.abort if transport is not None else _nothing
-            line = Line(socket, answers, workers.turns(), self.limits, title, abort, asked=asked, idle=idle)
+            line = Line(
+                socket, answers, workers.turns(), self.limits, title, abort, hold=_hold(request), asked=asked, idle=idle
+            )
             self.lines.add(line)
             LOG.info("%s comes from %s", title, request.remote)
             await line.run()
@@ -218,6 +221,19 @@ class Hall:
         if self._lines_of_log.has(1.0):
             LOG.warning("a call from %s is refused: %s", request.remote, reason)
         return kind(text=f"Refused: {reason}.", headers=HEADERS)
+
+
+def _hold(request: web.Request) -> Callable[[bool], None]:
+    """What keeps a connection from being read."""
+    protocol = request.protocol
+
+    def hold(is_held: bool) -> None:
+        if is_held:
+            protocol.pause_reading()
+        else:
+            protocol.resume_reading()
+
+    return hold
 
 
 def _nothing() -> None:

@@ -21,8 +21,8 @@ from reactive4d_apps.serving.workers import SlowError, Turns
 __all__ = ["ASKED", "EDITED", "ENDED", "Answers", "GoneError", "Line"]
 
 LOG = logging.getLogger("reactive4d.serving")
-ASKED = frozenset({"open", "ask", "need"})
-EDITED = ASKED | {"script"}
+EDITED = frozenset({"open", "ask", "need", "script"})
+ASKED = frozenset({"open", "ask", "need", "picture"})
 ENDED = 4001  # the code with which a connection ends whose private copy is no more
 SILENT = frozenset({"dropped"})
 MOST_SPANS = 10_000  # of news that wait; beyond, the reader opens again
@@ -59,6 +59,7 @@ class Line:
         limits: what is bounded.
         name: how the log calls it.
         abort: cuts the connection, whatever is still to be sent.
+        hold: called with whether nothing is to be read from the connection for now.
         asked: the kinds of messages that are answered.
         idle: seconds after which it ends if nothing is heard; None: never.
 
@@ -75,11 +76,13 @@ class Line:
         name: str,
         abort: Callable[[], None],
         *,
+        hold: Callable[[bool], None],
         asked: frozenset[str] = ASKED,
         idle: float | None = None,
     ) -> None:
         self.socket = socket
         self._abort = abort
+        self._hold = hold
         self.turns = turns
         self.limits = limits
         self.name = name
@@ -94,7 +97,8 @@ class Line:
         self.heard = 0
         self._faults = 0
         self._asked = 0
-        self._room = asyncio.Semaphore(2 * limits.asks)  # of answers that are computed or sent
+        self._wished = 0
+        self._room = asyncio.Semaphore(2 * (limits.asks + 1))  # of answers that are computed or sent
         self._news: dict[str, Any] | None = None
         self._has_news = asyncio.Event()
         self._answers = answers(self._tell)
@@ -116,10 +120,10 @@ class Line:
 
     async def _hear(self, kind: WSMsgType, data: Any) -> bool:
         """Take one message; False when it was one too many."""
-        wait = self._bucket.take(1 + len(data) // PIECE if kind in (WSMsgType.TEXT, WSMsgType.BINARY) else 1)
-        if wait:
-            await asyncio.sleep(wait)
+        await self._take_turn(1 + len(data or "") // PIECE)
         self.heard += 1
+        if kind in (WSMsgType.PING, WSMsgType.PONG):
+            return kind is WSMsgType.PONG or await self._echo(data)
         self._heard_at = time.monotonic()
         try:
             if kind is not WSMsgType.TEXT:
@@ -134,15 +138,45 @@ class Line:
         if not (isinstance(word, str) and word in self.asked):
             told = f"an unknown message, {word[:40]!r}" if isinstance(word, str) else "a message without a type"
             return await self._refuse(_number(message), told)
-        if self._asked >= self.limits.asks:
-            return await self._refuse(_number(message), f"more than {self.limits.asks} asks at one time")
+        # A picture is wished for beside what is asked, and one at a time.
+        under_way, most = (self._wished, 1) if word == "picture" else (self._asked, self.limits.asks)
+        if under_way >= most:
+            what = "asks" if word != "picture" else "picture"
+            return await self._refuse(_number(message), f"more than {most} {what} at one time")
         # Who asks again as soon as the answer begins to arrive does nothing wrong; but who takes none has to wait.
         await self._room.acquire()
-        self._asked += 1
+        self._count(word, 1)
         task = asyncio.create_task(self._reply(message))
         self._working.add(task)
         task.add_done_callback(self._working.discard)
         return True
+
+    async def _take_turn(self, cost: float) -> None:
+        """Wait until they may send that much. Meanwhile nothing is read: what has no length would fill no queue."""
+        wait = self._bucket.take(cost)
+        if wait:
+            self._hold(True)
+            try:
+                await asyncio.sleep(wait)
+            finally:
+                self._hold(False)
+
+    async def _echo(self, data: bytes) -> bool:
+        """A sign of life, which was asked for; False if they do not take it."""
+        try:
+            async with asyncio.timeout(self.limits.sending):
+                await self.socket.pong(data)
+        except (TimeoutError, ConnectionError, RuntimeError):
+            self._abort()
+            return False
+        return True
+
+    def _count(self, word: Any, step: int) -> None:
+        """One more is under way, or one less."""
+        if word == "picture":
+            self._wished += step
+        else:
+            self._asked += step
 
     async def _refuse(self, number: int | None, reason: str) -> bool:
         """Say what was wrong, to the reader and to the log; False if it was wrong too often."""
@@ -185,7 +219,7 @@ class Line:
             reply, buffers = {"id": number, "type": "error", "text": "this went wrong on the server; see its log"}, []
         if reply is not None and reply.get("type") == "error":
             self._warn(str(reply.get("text"))[:200])
-        self._asked -= 1
+        self._count(message.get("type"), -1)
         if reply is not None:
             await self._send(reply, buffers)
         self._room.release()
