@@ -20,6 +20,7 @@ import numpy as np
 import reactive4d as r4
 from reactive4d_apps.browsers import FLAGS, chromium, driver
 from reactive4d_widgets.creases import split
+from reactive4d_widgets.packings import unpacked
 
 from .reports import Section, Target, duration, ratio
 from .runs import Run
@@ -133,7 +134,8 @@ def data_of(page: Path) -> dict[str, Any]:
     text = page.read_text(encoding="utf-8")
     found = re.search(r'<script type="application/json" id="r4d-data-[^"]*">(.*?)</script>', text, re.DOTALL)
     assert found is not None
-    return json.loads(found.group(1))
+    data = json.loads(found.group(1))
+    return {**data, "segments": unpacked(data["segments"])}
 
 
 def _bundle(section: Section) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from reactive4d_widgets.chunks import decode
 from reactive4d_widgets.lowering import play
+from reactive4d_widgets.packings import unpacked
 
 __all__ = ["Playback"]
 
@@ -33,7 +34,7 @@ class Playback:
         for chunk in data["chunks"]:
             self.arrays.update(decode(chunk))
         self.segments: dict[str, list[Mapping[str, Any]]] = {}
-        for segment in data["segments"]:
+        for segment in unpacked(data["segments"]):
             self.segments.setdefault(segment["channel"], []).append(segment)
 
     def knows(self, channel: str, t: float, parameters: Mapping[str, Any] | None = None) -> bool:

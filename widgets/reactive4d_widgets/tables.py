@@ -1,6 +1,5 @@
 """Tables: the answers of a scene, written down beforehand: a manifest, segments and chunks, as a viewer reads them."""
 
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,6 +11,7 @@ from reactive4d_widgets.blends import blended
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.grades import described, readers_of
+from reactive4d_widgets.packings import compact, packed
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.segments import Segment, is_timeless
@@ -58,6 +58,7 @@ class Table:
         asks: how often the model was asked.
         sizes: about how many bytes each channel takes.
         problems: what went wrong.
+        packed: the segments as they travel.
     """
 
     manifest: dict[str, Any]
@@ -66,19 +67,17 @@ class Table:
     asks: int = 0
     sizes: dict[str, int] = field(default_factory=dict[str, int])
     problems: list[Problem] = field(default_factory=list[Problem])
+    packed: Any = None
+
+    def to_data(self) -> dict[str, Any]:
+        """As a page carries it, in plain JSON."""
+        if self.packed is None:
+            self.packed = packed(self.segments)
+        return {"manifest": self.manifest, "segments": self.packed, "chunks": self.chunks}
 
     def to_json(self) -> str:
         """As it stands in a page."""
-        return compact({"manifest": self.manifest, "segments": self.segments, "chunks": self.chunks})
-
-
-def compact(value: Any) -> str:
-    """JSON without spaces.
-
-    Raises:
-        ValueError: there is an infinity or NaN in it.
-    """
-    return json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+        return compact(self.to_data())
 
 
 def tabulated(
@@ -122,8 +121,12 @@ def tabulated(
         for control in plan.subject.controls
     ]
     sizes: dict[str, int] = {}
-    chunks = store.chunks(sizes)
     written = [_written(plan, segment, sizes) for segment in segments]
+    travelling = packed(written)
+    if travelling is not written:
+        share = len(travelling["data"]) / travelling["bytes"]
+        sizes = {channel: math.ceil(share * size) for channel, size in sizes.items()}
+    chunks = store.chunks(sizes)
     manifest = {
         "format": "reactive4d/1",
         "name": name or plan.subject.name,
@@ -151,7 +154,7 @@ def tabulated(
         for segment in segments
         if segment.error is not None
     ]
-    return Table(manifest, written, chunks, plan.asker.asks, sizes, problems)
+    return Table(manifest, written, chunks, plan.asker.asks, sizes, problems, travelling)
 
 
 def marks(plan: Plan) -> list[float]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import reactive4d as r4
+from reactive4d_widgets.packings import unpacked
 from reactive4d_widgets.plans import planned
 from reactive4d_widgets.playbacks import Playback
 from reactive4d_widgets.tables import Table, tabulated
@@ -29,7 +30,7 @@ class Baked:
         self.text = self.table.to_json()
         data = json.loads(self.text)
         self.manifest: dict[str, Any] = data["manifest"]
-        self.segments: list[dict[str, Any]] = data["segments"]
+        self.segments: list[dict[str, Any]] = unpacked(data["segments"])
         self.played = Playback(data)
         self.size = float(np.ptp(np.array(self.manifest["bounds"]), axis=0).max()) or 1.0
 

@@ -26,6 +26,7 @@ from reactive4d.errors import (
 )
 from reactive4d_widgets import bundles, figures
 from reactive4d_widgets.baking import bake
+from reactive4d_widgets.packings import unpacked
 from reactive4d_widgets.plans import planned
 from reactive4d_widgets.playbacks import Playback
 
@@ -66,11 +67,12 @@ class Seen(HTMLParser):
 
     def data(self) -> dict[str, Any]:
         """The figures' data by name."""
-        return {
+        found = {
             str(attributes["id"]).removeprefix("r4d-data-"): json.loads(text)
             for attributes, text in self.scripts
             if attributes.get("type") == "application/json"
         }
+        return {name: {**data, "segments": unpacked(data["segments"])} for name, data in found.items()}
 
 
 def seen(path: Path) -> Seen:

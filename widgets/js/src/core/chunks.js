@@ -61,7 +61,7 @@ export async function decode(value, path = "chunk") {
 
 /** Exactly so many bytes, or an error; never unpacks more. @param {Uint8Array<ArrayBuffer>} packed @param {string} path
  * @param {number} count */
-async function inflate(packed, path, count) {
+export async function inflate(packed, path, count) {
   const parts = [];
   let filled = 0;
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw"));

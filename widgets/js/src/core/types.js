@@ -138,6 +138,11 @@
  * @property {WireManifest} manifest
  * @property {WireSegment[]} segments
  * @property {WireChunk[]} chunks
+ *
+ * @typedef {object} PackedPage the same, where that is shorter
+ * @property {WireManifest} manifest
+ * @property {{bytes: number, data: string}} segments how long the list is as JSON, and this deflated, in base64
+ * @property {WireChunk[]} chunks
  */
 
 /**

@@ -4,12 +4,16 @@
  * A channel is answered with all its segments that match the parameters, at all times, so it is asked once for each
  * combination of stops; its arrays are sent along. Where the page holds nothing, it says so, as an error.
  */
-import { interval, list, MOST, name, object, own } from "../core/checks.js";
+import { interval, list, MOST, name, object, own, whole } from "../core/checks.js";
+import { inflate, MOST_BYTES } from "../core/chunks.js";
+import { WireError } from "../core/errors.js";
+import { bytes } from "../core/numbers.js";
 import { canonical } from "../core/segments.js";
 
 /**
  * @typedef {import("../core/types.js").Ask} Ask
  * @typedef {import("../core/types.js").PageData} PageData
+ * @typedef {import("../core/types.js").PackedPage} PackedPage
  * @typedef {import("../core/types.js").Transport} Transport
  * @typedef {import("../core/types.js").WireChunk} WireChunk
  * @typedef {import("../core/types.js").WireSegment} WireSegment
@@ -18,12 +22,15 @@ import { canonical } from "../core/segments.js";
 
 const NOTHING = "This page holds no answer here.";
 
-/** @param {PageData} data as it stands in the page @returns {Transport} */
+/** @param {PageData|PackedPage} data as it stands in the page @returns {Transport} */
 export function baked(data) {
   const page = object(data, "page");
   const manifest = own(page, "manifest");
   const chunks = list(own(page, "chunks"), "page.chunks");
-  const channels = byChannel(list(own(page, "segments"), "page.segments"));
+  const given = own(page, "segments");
+  /** @type {Map<string, WireSegment[]>} */
+  let channels = Array.isArray(given) ? byChannel(list(given, "page.segments")) : new Map();
+  const unpacked = Array.isArray(given) ? null : unpackedOf(object(given, "page.segments"));
   const holders = byRef(chunks);
   const stops = stopsOf(manifest);
   /** @type {Set<WireSegment>} */
@@ -50,7 +57,10 @@ export function baked(data) {
   };
 
   return {
-    open: async () => /** @type {any} */ (manifest),
+    open: async () => {
+      if (unpacked !== null) channels = byChannel(await unpacked());
+      return /** @type {any} */ (manifest);
+    },
     ask: async ({ seq, parameters, times, channels: asked }) => {
       const segments = asked.flatMap((channel) => times.flatMap((time) => answer(channel, time, parameters)));
       /** @type {Set<string>} */
@@ -65,6 +75,21 @@ export function baked(data) {
     },
     need: async (refs) => chunksOf(refs),
     close: () => undefined,
+  };
+}
+
+/** Segments that are deflated, unpacked when they are wanted. @param {Record<string, any>} packed */
+function unpackedOf(packed) {
+  const path = "page.segments";
+  const size = whole(own(packed, "bytes"), `${path}.bytes`, 0, MOST_BYTES);
+  const data = bytes(own(packed, "data"), `${path}.data`, MOST_BYTES);
+  return async () => {
+    const text = new TextDecoder().decode(await inflate(data, `${path}.data`, size));
+    try {
+      return list(JSON.parse(text), path);
+    } catch (error) {
+      throw error instanceof WireError ? error : new WireError(path, "expected JSON");
+    }
   };
 }
 
