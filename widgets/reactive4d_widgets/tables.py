@@ -11,6 +11,7 @@ from reactive4d_widgets.blends import blended
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.grades import described, readers_of
+from reactive4d_widgets.idles import without_idle
 from reactive4d_widgets.packings import compact, packed
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
@@ -114,7 +115,7 @@ def tabulated(
             continue
         found = coverer.cover(channel)
         blended(channel, found, plan.asker, store, linear=plan.linear, size=size)
-        segments.extend(found)
+        segments.extend(without_idle(channel, found, plan.asker, linear=plan.linear))
     depends = dependences(plan.subject)
     graded = [
         described(control, segments, plan.asker, readers_of(segments), depends=depends.get(control.name))
