@@ -63,10 +63,14 @@ class Lattice(r4.Illustration):
             for to in ((i + 1, j, k), (i, j + 1, k), (i, j, k + 1)):
                 if to[0] < 3 and to[1] < 2 and to[2] < 3:
                     end = points[to[0]][to[1]][to[2]]
-                    parts[f"line{i}{j}{k}{to}"] = r4.Line(points[i][j][k], end, color="gray")
+                    parts[f"line{i}{j}{k}{to}"] = r4.Path(
+                        [points[i][j][k], end], interpolation="linear", samples=1, color="gray"
+                    )
+        parts["camera"] = r4.Camera((1.6, -5.2, 1.6), (0.25, 0, 0.1), fov=34)
         scene = r4.Scene(parts)
-        scene.handle(parts["point202"], x=p.x, z=p.z, label="the upper corner")
-        scene.handle(parts["point000"], z=p.low, label="the lower corner")
+        for j, which in enumerate(("in front", "behind")):
+            scene.handle(parts[f"point2{j}2"], x=p.x, z=p.z, label=f"the upper corner {which}")
+            scene.handle(parts[f"point0{j}0"], z=p.low, label=f"the lower corner {which}")
         scene.signals["solved"] = abs(p.x - 0.6) + abs(p.z - 0.6) + abs(p.low + 0.6) < 0.12
         return scene
 

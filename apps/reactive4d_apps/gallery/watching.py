@@ -60,13 +60,13 @@ def watcher(way: Any) -> dict[str, r4.Object]:
     chair = seat | back | legs[0] | legs[1] | legs[2] | legs[3]
 
     spine = r4.Path([(0, 0.1, 0.9), (0, 0.2, 1.5), (0, 0.1, 2.1)], samples=12)
-    body = r4.Duct([r4.Circle(r, segments=16) for r in (0.2, 0.3, 0.1)], path=spine, color="steelblue")
+    body = r4.Duct([r4.Circle(r, segments=16) for r in (0.2, 0.3, 0.1)], path=spine, smooth=True, color="steelblue")
     head = r4.Sphere(0.28, color="burlywood")
     head.translate((0, 0.08, 2.35))
     limbs = {}
     for side, x in (("left", -0.18), ("right", 0.18)):
         bones = [(x, 0.1, 1.05), (x, -0.55, 1.05), (x, -0.62, 0.9), (x, -0.62, 0.05)]
-        leg = r4.Duct([r4.Circle(0.11, segments=12)], path=r4.Path(bones, samples=16), color="steelblue")
+        leg = r4.Duct([r4.Circle(0.11, segments=12)], path=r4.Path(bones, samples=16), smooth=True, color="steelblue")
         limbs[f"{side} leg"] = leg
 
     wings = {}
