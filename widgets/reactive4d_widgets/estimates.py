@@ -12,13 +12,16 @@ from reactive4d_widgets.chunks import encode
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
-from reactive4d_widgets.stores import measured, ranges
+from reactive4d_widgets.stores import arrays_of_a_chunk, measured, ranges
 
 __all__ = ["Share", "estimated", "refuse_if_too_large", "too_large"]
 
 PROBES = 5
+FEW = 4  # ticks that follow each other
 NAME = 70  # bytes of a reference, where the array is named and where it is used
 ROWS = 12  # of the table
+SAMPLE = 96_000  # rows of an array of more that are packed to know what all of them take
+PLACES = 8  # from which they come
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +65,7 @@ def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Sh
     few = [ticks[round(i * (len(ticks) - 1) / (PROBES - 1))] for i in range(PROBES)] if len(ticks) > PROBES else ticks
     reads: dict[str, None] = {}
     still: Any = None
+    probes: list[list[Any]] = []
     moving: list[int] = []
     for k in few:
         answer = asker.ask(channel.signal, span.tick(k))
@@ -69,6 +73,7 @@ def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Sh
         if answer.interval.stop - span.tick(k) < span.step:
             moving.append(k)
         still = answer.value if still is None else still
+        probes += [_arrays(channel, answer.value)] if answer.value is not None else []
         if answer.interval.stop > span.stop:
             break
     cells = math.prod([len(asker.stops[name]) for name in reads if name in asker.stops])
@@ -79,18 +84,31 @@ def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Sh
         if id(still) in seen:
             return None
         seen.add(id(still))
-    first = _bytes([_arrays(channel, still)])
     count = max(1, round(len(ticks) * len(moving) / len(few)))
-    each = _each(plan, channel, moving[len(moving) // 2]) if moving and count > 1 else 0
-    return Share(channel.name, cells, count, cells * (first + each * (count - 1)))
+    if moving and count > 1:
+        places = [moving[0], moving[len(moving) // 2], moving[-1]]
+        size = sum(_series(plan, channel, k, count, probes) for k in places) // len(places)
+    else:
+        size = _bytes([_arrays(channel, still)])
+    return Share(channel.name, cells, count, cells * size)
 
 
-def _each(plan: Plan, channel: Channel, k: int) -> int:
-    """What a tick takes after the first: three that follow each other tell."""
-    some = [min(k, plan.span.count - 2) + i for i in range(3)] if plan.span.count >= 2 else [k]
+def _series(plan: Plan, channel: Channel, k: int, count: int, probes: list[list[Any]]) -> int:
+    """What some ticks take, as a few that follow each other tell; each later one takes what the last of them took."""
+    several = arrays_of_a_chunk(max([array.nbytes for array in probes[0]], default=0))
+    last, few = plan.span.count + 1, min(FEW, several)
+    some = range(max(min(k, last - few), 0), last)[:few]
     answers = [plan.asker.ask(channel.signal, plan.span.tick(i)) for i in some]
     values = [_arrays(channel, answer.value) for answer in answers if answer.value is not None]
-    return (_bytes(values) - _bytes(values[:1])) // (len(values) - 1) if len(values) > 1 else 0
+    if not values:
+        return 0
+    sizes = [_bytes(values[: i + 1], probes) for i in range(len(values))]
+    more = sizes[-1] - sizes[-2] if len(sizes) > 1 else sizes[-1]
+
+    def packed(n: int) -> int:
+        return 0 if n == 0 else sizes[n - 1] if n <= len(sizes) else sizes[-1] + more * (n - len(sizes))
+
+    return count // several * packed(several) + packed(count % several)
 
 
 def _arrays(channel: Channel, value: Any) -> list[Any]:
@@ -101,19 +119,32 @@ def _arrays(channel: Channel, value: Any) -> list[Any]:
     return [np.asarray(value, dtype=np.float32)]
 
 
-def _bytes(several: list[list[Any]]) -> int:
-    """How many bytes some arrays take, packed together if they are of one shape."""
+def _bytes(several: list[list[Any]], probes: list[list[Any]] | None = None) -> int:
+    """How many bytes some arrays take, packed together if they are of one shape; the probes say between what bounds."""
     size = 0
-    for alike in zip(*several, strict=False):
+    for i, alike in enumerate(zip(*several, strict=False)):
         arrays = [array for array in alike if array.size]
         if not arrays:
             continue
         size += NAME * len(arrays)
+        part = max(1.0, len(arrays[0]) / SAMPLE)
         if arrays[0].dtype.kind == "f" and all(array.shape == arrays[0].shape for array in arrays):
-            size += measured(encode(arrays, refs=[""] * len(arrays), bounds=ranges(arrays), smooth=True))
+            some = [_sampled(array) for array in arrays]
+            others = [probe[i] for probe in probes or () if i < len(probe) and probe[i].shape == arrays[0].shape]
+            chunk = encode(some, refs=[""] * len(arrays), bounds=ranges([*arrays, *others]), smooth=True)
+            size += round(part * measured(chunk))
         else:
-            size += sum(measured(encode([array], refs=[""])) for array in arrays)
+            size += sum(round(part * measured(encode([_sampled(array)], refs=[""]))) for array in arrays)
     return size
+
+
+def _sampled(array: Any) -> Any:
+    """Some rows of an array of very many: those of a few places, where neighbours stay neighbours."""
+    if len(array) <= SAMPLE:
+        return array
+    run = SAMPLE // PLACES
+    starts = np.linspace(0, len(array) - run, PLACES).astype(int)
+    return np.concatenate([array[start : start + run] for start in starts])
 
 
 def refuse_if_too_large(shares: Iterable[Share], limit: float, *, besides: int = 0) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from reactive4d.references import reference
 from reactive4d_widgets.chunks import encode, extent
 
-__all__ = ["Store", "measured", "ranges"]
+__all__ = ["Store", "arrays_of_a_chunk", "measured", "ranges"]
 
 Array = NDArray[Any]
 EXACT = 16_384  # bytes of floats in one channel that are kept to the last bit
@@ -74,11 +74,20 @@ def packed_group(named: Sequence[tuple[str, Array]]) -> Iterable[dict[str, Any]]
             widths[width] = ranges([array for array in floats if array.shape[1] == width])
     for alike in kinds.values():
         first = alike[0][1]
-        several = max(1, min(MOST_ARRAYS, MOST_BYTES // max(first.nbytes, 1)))
+        several = arrays_of_a_chunk(first.nbytes)
         bounds = widths[first.shape[1]] if is_coarse and first.dtype.kind == "f" else None
         for i in range(0, len(alike), several):
             part = alike[i : i + several]
             yield encode([array for _, array in part], refs=[ref for ref, _ in part], bounds=bounds, smooth=True)
+
+
+def arrays_of_a_chunk(size: int) -> int:
+    """How many arrays of a size, bytes, are packed together.
+
+    >>> arrays_of_a_chunk(100), arrays_of_a_chunk(5_000_000)
+    (64, 1)
+    """
+    return max(1, min(MOST_ARRAYS, MOST_BYTES // max(size, 1)))
 
 
 def ranges(arrays: Sequence[Array]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -1,7 +1,7 @@
 """Views: from where a scene is looked at, and how one stands so that all of it is in the picture."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +26,8 @@ MARGIN = 0.06
 TIMES = 9
 # Directions in which one looks for the outermost points: with so many, a ball loses less than 1/300 of its radius.
 _SPREAD = 128
+_MANY = 100_000  # points that are all looked at
+_PART = 16_384  # points at a time
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,10 +174,28 @@ def outermost(frames: Iterable[Frame]) -> Array:
             linear = node.matrix[:3, :3]
             # The outermost in a direction of the world are those in the direction that the matrix turns into it.
             if len(points) > _SPREAD:
-                towards = _directions() @ linear
-                points = points[np.unique((points @ towards.T.astype(np.float32)).argmax(axis=0))]
+                points = points[_farthest(points, _directions() @ linear)]
             found.append(transform_points(node.matrix, points.astype(np.float64)))
     return np.concatenate(found) if found else np.zeros((0, 3))
+
+
+def _farthest(points: NDArray[Any], towards: Array) -> NDArray[np.intp]:
+    """(N,), which of some points (V, 3) lie farthest in some directions (D, 3), the last six of which are the axes.
+
+    Of very many points every so many-th stands for its neighbours, but not along the axes, which make the bounds.
+    """
+    wanted = np.ascontiguousarray(towards, np.float32)
+    stride = -(-len(points) // _MANY)
+    axes = _parts(points) if stride > 1 else iter(())
+    found = [(wanted[-6:] @ part.T).argmax(axis=1) + i for i, part in axes]
+    found += [stride * ((wanted @ part.T).argmax(axis=1) + i) for i, part in _parts(points[::stride])]
+    few = np.unique(np.concatenate(found))
+    return few[np.unique((wanted @ points[few].T).argmax(axis=1))]
+
+
+def _parts(points: NDArray[Any]) -> Iterator[tuple[int, NDArray[Any]]]:
+    """Points in parts that a processor has at hand, each with where it begins."""
+    return ((i, np.asarray(points[i : i + _PART], np.float32)) for i in range(0, len(points), _PART))
 
 
 def camera_of(frame: Frame) -> View | None:
