@@ -44,10 +44,10 @@ def filming(run: Run) -> Section:
                 ratio(wall),
             )
         )
-        section.targets.append(Target(f"film: {name}, against bare PyVista", cpu, 1.3, "times"))
+        section.targets.append(Target(f"film: {name}, against bare PyVista", 1.3, cpu, "times"))
     section.notes.append(
         f"{COUNT} objects, of which {MOVING} move, {SIZE[0]} × {SIZE[1]}, drawn at twice that and made smaller, H.264 "
-        f"by the same encoder; CPU seconds of one picture, of {pictures}, {rounds} times by turns. With shadows "
+        f"by the same encoder; CPU seconds of one picture, of {pictures * rounds}, by turns. With shadows "
         "PyVista has one lamp and `enable_shadows()`, while ours has two, is soft, and lies on the floor as well; VTK "
         "draws no lines beside its shadows."
     )
