@@ -20,6 +20,10 @@ class Limits:
         sending: seconds within which a reader must take what is sent to them; else the connection is ended.
         pulse: seconds between two signs of life that are asked of a silent reader.
         threads: in which is evaluated.
+        windows: in which pictures are drawn for readers who cannot draw them, all readers together.
+        pictures: that one reader may have in a second.
+        pixels: of one picture; who wants a larger one gets a smaller one of the same shape.
+        triangles: of a scene; a larger one is not sent, but drawn for its readers.
         copies: private copies at one time, all readers together; whoever wants one more is told to wait.
         script: letters of one that a reader sends.
         copy_memory: bytes that a private copy may take beyond what an empty one does.
@@ -41,6 +45,10 @@ class Limits:
     sending: float = 20.0
     pulse: float = 20.0
     threads: int = 4
+    windows: int = 8
+    pictures: float = 30.0
+    pixels: int = 1600 * 1200
+    triangles: int = 2_000_000
     copies: int = 8
     script: int = 200_000
     copy_memory: int = 512 * 2**20

@@ -9,6 +9,7 @@ from typing import Any
 from reactive4d.errors import unknown
 from reactive4d.illustrations import Figure, Illustration, Page
 from reactive4d.illustrations import subject as subject_of
+from reactive4d_apps.serving.ateliers import Atelier
 from reactive4d_apps.serving.documents import document, files
 from reactive4d_apps.serving.exhibits import Exhibit
 from reactive4d_apps.serving.halls import Hall
@@ -20,6 +21,8 @@ from reactive4d_widgets.pages import refuse_wrong_words
 from reactive4d_widgets.proofs import proofread
 
 __all__ = ["serve"]
+
+PICTURES = ("auto", "always", "never")
 
 
 def serve(
@@ -39,6 +42,7 @@ def serve(
     parameters: Mapping[str, Any] | None = None,
     origins: Collection[str] = (),
     limits: Limits | None = None,
+    pictures: str = "auto",
     **values: Any,
 ) -> Server:
     """Serve a page whose figures ask the model, for any number of readers.
@@ -62,6 +66,8 @@ def serve(
         parameters: values by name, for parameters that are called like one of these arguments.
         origins: of further sites whose pages may speak to the server, such as that of a proxy.
         limits: how much one reader may take.
+        pictures: whether the server draws for its readers: "auto" for those whose browser cannot, and for all where a
+            scene is too large to be sent; "always", or "never".
         **values: of parameters, with which it opens.
 
     Returns:
@@ -89,8 +95,14 @@ def serve(
     prose = text if text is not None else page.text if page is not None else _said_of(subject)
     refuse_wrong_words(prose, title, lang)
     checked_options({"theme": theme}, {})
+    if pictures not in PICTURES:
+        raise unknown(pictures, PICTURES, what="way to draw pictures")
+    bounds = limits or Limits()
+    atelier = Atelier(bounds.windows)
+    more: dict[str, Any] = {"pictures": pictures, "atelier": atelier, "limits": bounds}
     exhibits = {
-        name: Exhibit(name, figure, times=times, values=given, options=options) for name, figure in figures.items()
+        name: Exhibit(name, figure, times=times, values=given, options=options, **more)
+        for name, figure in figures.items()
     }
     plans = {name: exhibit.model.plan for name, exhibit in exhibits.items()}
     proofread(prose, plans, {name: figure.follow for name, figure in figures.items()})

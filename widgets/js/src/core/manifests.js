@@ -16,6 +16,7 @@ import { plain } from "./segments.js";
 
 const MOST = { nodes: 200_000, parameters: 1_000, values: 10_000, handles: 1_000 };
 const KINDS = /** @type {const} */ (["number", "integer", "boolean", "select", "color", "range", "xy"]);
+const PICTURES = /** @type {const} */ (["never", "instead", "always"]);
 const GRADES = /** @type {const} */ (["free", "stops", "fixed"]);
 
 /** @param {any} value as it travelled @param {string} [path] @returns {Manifest} */
@@ -47,6 +48,7 @@ export function readManifest(value, path = "manifest") {
       .map((one, i) => readValue(one, `${path}.values[${i}]`)),
     point: readPoint(at("point") ?? {}, parameters, times, `${path}.point`),
     options: readOptions(at("options") ?? {}, `${path}.options`),
+    pictures: oneOf(at("pictures") ?? "never", `${path}.pictures`, PICTURES),
   });
 }
 

@@ -64,6 +64,17 @@
  * @property {(refs: Ref[]) => void} dropped what the viewer no longer has
  * @property {(refs: Ref[]) => Promise<WireChunk[]>} need
  * @property {() => void} close
+ * @property {(wish: Wish) => Promise<Uint8Array>} [picture] draws, for who cannot: JPEG
+ *
+ * @typedef {object} Wish what is to be seen on a picture that somebody else draws
+ * @property {number} time
+ * @property {Record<string, any>} parameters
+ * @property {{position: number[], target: number[], up: number[], fov: number}} camera
+ * @property {number[]} size pixels
+ * @property {"light"|"dark"} theme
+ * @property {boolean} edges
+ * @property {boolean} shadows
+ * @property {boolean} sharp whether it stands still
  */
 
 /** @typedef {"number"|"integer"|"boolean"|"select"|"color"|"range"|"xy"} ParameterKind */
@@ -131,6 +142,7 @@
  * @property {readonly {name: string, unit: string, format: string}[]} values
  * @property {Point} point where the figure opens
  * @property {Options} options
+ * @property {"never"|"instead"|"always"} pictures whether a server draws: for who cannot, or for everybody
  *
  * @typedef {{format: string, name: string, [name: string]: any}} WireManifest
  *

@@ -100,6 +100,12 @@ export class View {
     this.#restyle();
   }
 
+  /** In which surroundings the picture is. @returns {"light"|"dark"} */
+  get theme() {
+    const { theme } = this.#options;
+    return theme === "auto" ? (this.#dark.matches ? "dark" : "light") : theme;
+  }
+
   /** How many draw batches the meshes make. */
   get batches() {
     return this.#ready().contents.batches;
@@ -265,8 +271,7 @@ export class View {
   }
 
   get #theme() {
-    const { theme } = this.#options;
-    return THEMES[theme === "auto" ? (this.#dark.matches ? "dark" : "light") : theme];
+    return THEMES[this.theme];
   }
 
   #restyle() {

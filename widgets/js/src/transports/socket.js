@@ -110,6 +110,13 @@ export class Line {
     return (await this.#ask({ type: "need", refs })).blobs;
   }
 
+  /** @param {import("../core/types.js").Wish} wish @returns {Promise<Uint8Array>} JPEG */
+  async picture(wish) {
+    const { picture } = await this.#ask({ ...wish, type: "picture" });
+    if (!(picture instanceof Uint8Array)) throw new WireError("message.picture", "expected a picture");
+    return picture;
+  }
+
   /**
    * Let a private copy say something else from now on; if nothing is wrong with it, it has to be opened again.
    * @param {string} text
@@ -289,6 +296,8 @@ export function unpacked(data) {
     at += size;
     return new Uint8Array(data, at - size, size);
   });
+  const drawn = own(message, "picture")?.buffer;
+  if (drawn !== undefined) message.picture = parts[whole(drawn, "message.picture.buffer", 0, parts.length - 1)];
   for (const chunk of list(own(message, "blobs") ?? [], "message.blobs")) {
     const k = chunk?.data?.buffer;
     if (k !== undefined) chunk.data = parts[whole(k, "message.blobs.data.buffer", 0, parts.length - 1)];

@@ -137,6 +137,7 @@ export class FigureElement extends ElementBase {
       session,
       clock,
       view: (canvas, manifest) => new View(stage, canvas, manifest),
+      draw: this.#transport?.picture?.bind(this.#transport) ?? null,
       copy: () => this.#copy(),
       tell: (name) => this.#tell(name),
     }, this.#spoken);

@@ -39,6 +39,8 @@ export const figureStyles = `
   display: block; width: 100% !important; height: 100% !important; object-fit: contain; margin: 0 !important;
 }
 .picture[data-live] ::slotted(.r4d-poster), .picture[data-live] > slot { display: none; }
+.picture > .remote { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
+.picture:not([data-live]) > .remote { display: none; }
 .picture > .still { display: none; position: absolute; inset: 0; width: 100%; height: 100%; }
 .over, .handles { position: absolute; inset: 0; pointer-events: none; }
 .picture:not([data-live]) > :is(.over, .hover, .r4d-labels) { display: none; }

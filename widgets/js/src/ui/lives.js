@@ -9,6 +9,7 @@ import { Menu } from "./menu.js";
 import { KEYS, Picture } from "./picture.js";
 import { Player } from "./player.js";
 import { Reader } from "./readers.js";
+import { Remote } from "./remotes.js";
 import { Announcer, parameterTexts, pictureText } from "./speech.js";
 
 /**
@@ -23,6 +24,7 @@ import { Announcer, parameterTexts, pictureText } from "./speech.js";
  * @property {import("../core/session.js").Session} session open
  * @property {import("../core/clock.js").Clock} clock
  * @property {(canvas: HTMLCanvasElement, manifest: Manifest) => import("../render/views.js").View | null} view
+ * @property {((wish: import("../core/types.js").Wish) => Promise<Uint8Array>) | null} [draw] who draws, if not we
  * @property {() => Promise<string | null>} copy a link to where the reader is
  * @property {(name: string) => void} tell the page of an event
  */
@@ -40,6 +42,7 @@ export class Life {
   #stripped = 0;
   #described = 0;
   #drawn = false;
+  /** @type {Remote | null} */ #remote = null;
   #parts;
 
   /** @param {Parts} parts @param {HTMLElement} spoken the live region */
@@ -109,13 +112,28 @@ export class Life {
         look: (eye) => { if (eye) view.camera = eye; else view.follow(true); },
       });
       this.#off.push(
-        view.on("camera", () => { reader.looked(); this.handles.place(); this.#menuNow(); this.#label(); }),
+        view.on("camera", () => {
+          reader.looked();
+          this.handles.place();
+          this.#menuNow();
+          this.#label();
+          this.#remote?.want();
+        }),
         view.on("hover", (hit) => { if (!this.#selected) this.picture.hover(hit); }),
-        view.on("lost", () => this.picture.live(false, this.#drawn ? LOST : STILL)),
-        view.on("restored", () => { if (this.snapshot) this.#draw(); }),
+        view.on("lost", () => {
+          if (!this.#elsewhere()) this.picture.live(false, this.#drawn ? LOST : STILL);
+        }),
+        view.on("restored", () => {
+          if (this.manifest.pictures !== "always") this.#here();
+          if (this.snapshot) this.#draw();
+        }),
       );
     } else this.picture.live(false, STILL);
-    const sizes = new ResizeObserver(() => { this.handles.place(); this.#label(); });
+    const sizes = new ResizeObserver(() => {
+      this.handles.place();
+      this.#label();
+      this.#remote?.want(true);
+    });
     sizes.observe(this.picture.element);
     this.#off.push(() => sizes.disconnect());
   }
@@ -125,6 +143,7 @@ export class Life {
     const first = this.snapshot === null;
     this.snapshot = snapshot;
     this.view?.show(snapshot);
+    this.#remote?.want(!this.reader.isPlaying());
     if (first) this.#unveil();
     this.picture.fail(snapshot.problems);
     this.handles.place();
@@ -147,10 +166,35 @@ export class Life {
 
   /** Now, and finely. @returns {boolean} whether there is something to draw with */
   #draw() {
-    if (!this.view?.render()) return false;
+    if (this.#remote || (this.manifest.pictures === "always" && this.#elsewhere())) return true;
+    if (!this.view?.render()) return this.#elsewhere();
     this.#drawn = true;
     this.picture.live(true);
     return true;
+  }
+
+  /** Let the server draw, if it does. @returns {boolean} whether it does */
+  #elsewhere() {
+    const { draw, session } = this.#parts;
+    if (this.manifest.pictures === "never" || !draw || !this.view) return false;
+    if (this.#remote) return true;
+    const point = () => ({ time: session.point.time, parameters: { ...session.point.parameters } });
+    const tell = (/** @type {boolean} */ drawn, /** @type {string} */ problem) => this.picture.live(drawn, problem);
+    this.#remote = new Remote({ draw, view: this.view, point, tell });
+    this.picture.canvas.after(this.#remote.element);
+    this.#remote.want(true);
+    return true;
+  }
+
+  /** Draw here again. */
+  #here() {
+    this.#remote?.dispose();
+    this.#remote = null;
+  }
+
+  /** How many pictures were drawn elsewhere. */
+  get remote() {
+    return this.#remote?.count ?? 0;
   }
 
   #moved() {
@@ -269,12 +313,14 @@ export class Life {
     if (options.theme) this.#parts.tell(`theme ${options.theme}`);
     const { theme: _theme, ...rest } = options;
     if (this.view) this.view.options = rest;
+    this.#remote?.want(true);
   }
 
   /** @param {"light" | "dark"} theme */
   paint(theme) {
     this.picture.element.dataset.theme = theme;
     if (this.view) this.view.options = { theme };
+    this.#remote?.want(true);
   }
 
   async full() {
@@ -304,10 +350,12 @@ export class Life {
   /** @param {boolean} printing */
   print(printing) {
     if (!printing) this.picture.print(null);
+    else if (this.#remote) this.picture.print(this.#remote.element.src);
     else if (this.snapshot && this.#draw()) this.picture.print(this.picture.canvas.toDataURL("image/png"));
   }
 
   dispose() {
+    this.#here();
     for (const off of this.#off) off();
     this.announcer.dispose();
     this.picture.dispose();

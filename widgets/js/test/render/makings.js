@@ -83,6 +83,7 @@ export const snapshot = (...states) => ({
 
 /** @param {Partial<Manifest["options"]>} [options] @returns {Manifest} */
 export const manifest = (options = {}) => ({
+  pictures: "never",
   format: "reactive4d/1",
   name: "figure",
   title: "",
