@@ -72,8 +72,8 @@ const BLUR = /* glsl */ `
   void main() {
     vec2 sum = vec2( 0.0 );
     float weights = 0.0;
-    for ( int i = - 3; i <= 3; i ++ ) {
-      float x = float( i ) / 3.0;
+    for ( int i = - 8; i <= 8; i ++ ) { // so near to each other that none is seen by itself
+      float x = float( i ) / 8.0;
       float weight = exp( - 2.2 * x * x );
       weights += weight;
       sum.r += weight * texture2D( source, vPlace + x * wide ).r;
