@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import transform  # pyright: ignore[reportMissingTypeStubs]
 
 from reactive4d.geometry.transforms import inverse
 from reactive4d.model.nodes import Node
 from reactive4d.signals.colors import srgb_to_linear
+from reactive4d_widgets.placements import parts_of, upright
 from reactive4d_widgets.stage.shapes import paints, shape, stroke
 
 __all__ = ["Writer"]
@@ -60,18 +60,18 @@ class Writer:
             return
         parent, given = self._parent(name)
         local = inverse(given) @ node.matrix if abs(np.linalg.det(given)) > 1e-300 else node.matrix
-        parts = _parts(local)
+        parts = parts_of(local)
         rest = None if parts is not None else local
         made: dict[str, Any] = {"name": name.rpartition("/")[2], **(parts or {})}
         if node.primitive in MODES:
             made["mesh"] = self._mesh(name, node, rest)
         elif node.primitive == "camera":
-            made = {"name": made["name"], **_upright(local), "camera": self._camera(name, node)}
+            made = {"name": made["name"], **upright(local), "camera": self._camera(name, node)}
         elif node.primitive == "light":
             light = self._light(name, node)
             if light is None:
                 return
-            made = {"name": made["name"], **_upright(local), "extensions": {"KHR_lights_punctual": {"light": light}}}
+            made = {"name": made["name"], **upright(local), "extensions": {"KHR_lights_punctual": {"light": light}}}
         elif node.primitive == "label":
             made["extras"] = {"text": str(node.drawn["text"])}
         self._places[name] = self._node(made, parent), given if parts is None else np.asarray(node.matrix)
@@ -258,40 +258,6 @@ class Writer:
         for light in self._lights:
             if "at" in light:
                 light["intensity"] *= float(max(((light.pop("at") - middle) ** 2).sum(), 1e-6))
-
-
-def _parts(matrix: Array) -> dict[str, list[float]] | None:
-    """A matrix as translation, rotation and scale; None if it is not made of these."""
-    linear = matrix[:3, :3]
-    scale = np.linalg.norm(linear, axis=0)
-    if scale.min() <= 1e-9 * max(scale.max(), 1e-300):
-        return None
-    if np.linalg.det(linear) < 0.0:
-        scale = scale * (-1.0, 1.0, 1.0)
-    turned = linear / scale
-    if not np.allclose(turned.T @ turned, np.eye(3), atol=1e-6):
-        return None
-    found: dict[str, list[float]] = {}
-    if matrix[:3, 3].any():
-        found["translation"] = matrix[:3, 3].tolist()
-    if not np.allclose(turned, np.eye(3), atol=1e-12):
-        rotations: Any = transform
-        found["rotation"] = rotations.Rotation.from_matrix(turned).as_quat().tolist()
-    if not np.allclose(scale, 1.0, atol=1e-12):
-        found["scale"] = scale.tolist()
-    return found
-
-
-def _upright(matrix: Array) -> dict[str, list[float]]:
-    """Where an eye or a lamp is and where it looks, whatever its size."""
-    back = matrix[:3, 2] / max(float(np.linalg.norm(matrix[:3, 2])), 1e-300)
-    up = matrix[:3, 1] - back * (matrix[:3, 1] @ back)
-    if np.linalg.norm(up) < 1e-9:
-        up = np.cross(back, (1.0, 0.0, 0.0) if abs(back[0]) < 0.9 else (0.0, 1.0, 0.0))
-    up = up / np.linalg.norm(up)
-    made = np.eye(4)
-    made[:3, 0], made[:3, 1], made[:3, 2], made[:3, 3] = np.cross(up, back), up, back, matrix[:3, 3]
-    return _parts(made) or {}
 
 
 def _linear(colors: Array) -> Array:

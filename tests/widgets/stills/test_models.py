@@ -246,7 +246,8 @@ const gltf = await new GLTFLoader().parseAsync(file.buffer.slice(file.byteOffset
 const told = {};
 gltf.scene.updateMatrixWorld(true);
 gltf.scene.traverse((node) => {
-  told[node.name] = { type: node.type, place: node.matrixWorld.elements.slice(12, 15), back: node.matrixWorld.elements.slice(8, 11) };
+  const numbers = node.matrixWorld.elements;
+  told[node.name] = { type: node.type, place: numbers.slice(12, 15), back: numbers.slice(8, 11) };
 });
 console.log(JSON.stringify({ told, cameras: gltf.cameras.length }));
 """

@@ -1,4 +1,4 @@
-"""The stage: what VTK draws of a scene, kept from instant to instant. No other package makes VTK's types."""
+"""The stage: what VTK draws of a scene, kept from instant to instant. Nobody else draws with VTK."""
 
 from reactive4d_widgets.stage.stages import Stage
 
