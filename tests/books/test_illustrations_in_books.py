@@ -134,6 +134,17 @@ def test_a_script_is_a_figure_and_its_text_stands_beside_it(book: Book):
     assert "highlight-scefo" in book.html()
 
 
+def test_a_script_that_may_be_edited_is_a_text_where_there_is_no_server(book: Book):
+    """And says where it may be; an illustration is a program, and nobody's to edit."""
+    (book.folder / "egg.scefo").write_text('object (egg) sphere color="gold"; /* an egg */\n', encoding="utf-8")
+    build = book.build("# An egg\n\n```{illustration} egg.scefo\n:editable:\n:name: egg\n```\n", strict=True)
+    assert build.ok, build.complaints
+    html = book.html()
+    assert re.search(r'<r4d-script figure="egg"><div class="highlight-scefo', html)
+    assert "a reader can edit this script, in a copy of their own" in html
+    assert not book.build(POLE.replace(":name: pole", ":editable:"), strict=True).ok
+
+
 def test_an_exercise_says_whether_it_is_done(book: Book):
     """And keeps its solution folded."""
     box = "\n````{exercise} *Taller*\n:check: tall\n\nMake it taller.\n\n:::{solution}\nTwo metres.\n:::\n````\n"
@@ -244,6 +255,6 @@ def test_what_no_figure_says_any_more_is_removed_from_the_site(book: Book):
     """A site does not grow with every build."""
     book.build(POLE, strict=True)
     before = book.data()
-    book.build(POLE.replace("[0.5, 1, 2]", "[0.5, 2]"), strict=True)
+    book.build(POLE.replace(":name: pole", ":name: pole\n:times: 0, 3"), strict=True)
     assert len(book.data()) == len(before)
     assert before != book.data()

@@ -17,6 +17,10 @@ from reactive4d_apps.books.projects import begun
 PATIENCE = 120_000  # ms
 ALIVE = "() => document.querySelector('r4d-figure')?.snapshot"
 STATE = "() => document.querySelector('r4d-figure').dataset.state"
+BLUE = """(wanted) => {
+  const egg = document.querySelector("r4d-figure").snapshot?.nodes.get("egg");
+  return egg && (egg.color[2] > egg.color[0]) === wanted;
+}"""
 GRADES = """() => Object.fromEntries(
   document.querySelector('r4d-figure').reader.manifest.parameters.map(({ name, grade }) => [name, grade]))"""
 
@@ -94,6 +98,29 @@ def test_figures_are_live_and_pages_come_anew_when_they_are_saved(folder: Path, 
         " return bob && bob.color[2] > bob.color[0] }"
     )
     assert window.evaluate(STATE) == "live"
+
+
+def test_a_reader_edits_a_script_in_a_copy_of_their_own(folder: Path, address: str, window: Any):
+    """Mistakes are told at their lines; the way back is a button."""
+    (folder / "chapters" / "02_egg.md").write_text(
+        "# An egg\n\n```{illustration} egg.scefo\n:editable:\n:name: egg\n```\n", encoding="utf-8"
+    )
+    (folder / "chapters" / "egg.scefo").write_text('object (egg) sphere color="gold";\n', encoding="utf-8")
+    window.goto(f"{address}index.html")
+    window.wait_for_function("() => document.body.innerText.includes('An egg')")
+    window.goto(f"{address}chapters/02_egg.html")
+    window.wait_for_function(ALIVE)
+    script = window.locator("r4d-script")
+    script.evaluate("(element) => { element.shadowRoot.querySelector('details').open = true }")
+    script.locator("textarea").fill("object (egg) sphere color=;")
+    script.locator("button.run").click()
+    script.locator(".wrong li").wait_for()
+    assert script.locator(".wrong li").inner_text().startswith("Line 1, column 27")
+    script.locator("textarea").fill('object (egg) sphere color="navy";')
+    script.locator("button.run").click()
+    window.wait_for_function(BLUE, arg=True)
+    script.get_by_role("button", name="Back to what all see").click()
+    window.wait_for_function(BLUE, arg=False)
 
 
 def test_where_the_model_does_not_answer_a_figure_has_what_its_page_holds(folder: Path, address: str, window: Any):

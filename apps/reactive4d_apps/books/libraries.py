@@ -3,14 +3,15 @@
 import asyncio
 import json
 import mimetypes
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from html import escape
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from aiohttp import web
 
+from reactive4d_apps.serving.copies import Original
 from reactive4d_apps.serving.halls import HEADERS, Hall
 from reactive4d_apps.serving.limits import Limits
 
@@ -31,6 +32,7 @@ class Library(Hall):
     Args:
         site: the folder of its files.
         figures: by the names of their lines: from what is to be called with news to who answers one reader.
+        originals: by the same names: figures of which a reader may have a private copy.
         host: to which the server is bound.
         origins: further origins whose pages may call.
         limits: what is bounded.
@@ -41,6 +43,7 @@ class Library(Hall):
         site: Path,
         figures: dict[str, Callable[..., Any]],
         *,
+        originals: Mapping[str, Original] | None = None,
         host: str = "127.0.0.1",
         origins: Collection[str] = (),
         limits: Limits | None = None,
@@ -52,28 +55,43 @@ class Library(Hall):
         self._complaints: list[str] = []
         self._waiting: set[asyncio.Queue[str | None]] = set()
         self._loop: asyncio.AbstractEventLoop | None = None
-        self.renew(figures, ())
+        self.renew(figures, (), originals=originals)
 
-    def attach(self, app: web.Application) -> None:
-        """Add the addresses to a server that has not started, and end with it."""
-        app.router.add_get("/{token}/live/{figure}", self._get_line)
-        app.router.add_get("/{token}/book/news", self._get_news)
-        app.router.add_get("/{token}/book/news.js", self._get_script)
-        app.router.add_get("/{token}/{path:.*}", self._get_path)
+    def attach(self, app: web.Application, *, is_guest: bool = False) -> None:
+        """Add the addresses to a server that has not started, and end with it.
+
+        Args:
+            app: of the server.
+            is_guest: whether it has addresses of its own, which ours must not cover.
+        """
+        head = f"/{self.token}" if is_guest else "/{token}"
+        app.router.add_get(f"{head}/live/{{figure}}", self._get_line)
+        app.router.add_get(f"{head}/copy/{{figure}}", self._get_copy)
+        app.router.add_get(f"{head}/book/news", self._get_news)
+        app.router.add_get(f"{head}/book/news.js", self._get_script)
+        app.router.add_get(f"{head}/{{path:.*}}", self._get_path)
         app.on_startup.append(self._begin)
         app.on_shutdown.append(self._end_news)
         app.on_shutdown.append(self._finish)
 
     # -- what is served, and that it changed -------------------------------------------------------------------------
 
-    def renew(self, figures: dict[str, Callable[..., Any]], complaints: Iterable[str]) -> None:
+    def renew(
+        self,
+        figures: dict[str, Callable[..., Any]],
+        complaints: Iterable[str],
+        *,
+        originals: Mapping[str, Original] | None = None,
+    ) -> None:
         """The site was built anew: its pages load again wherever they are open.
 
         Args:
             figures: by the names of their lines.
             complaints: what is wrong with it, for its author to read in the page.
+            originals: by the same names: figures of which a reader may have a private copy.
         """
         self.figures = dict(figures)
+        self.originals = cast("dict[str, Original]", {} if originals is None else originals)
         self._held = {path.relative_to(self._site).as_posix(): path for path in self._site.rglob("*") if path.is_file()}
         self._version += 1
         self.complain(complaints)

@@ -81,7 +81,7 @@ def opened(
         raise Reactive4dError(f"{folder}: the book was not built")
     trees = kept / TREES
     shelf = Shelf(entries_of(trees), [folder.resolve()])
-    library = Library(build.site, shelf.figures, host=host)
+    library = Library(build.site, shelf.figures, originals=shelf.originals, host=host)
     library.complain(build.complaints)
     files.update(seen(folder, shelf.files))
     with Server(library, host=host, port=port) as server:
@@ -102,7 +102,7 @@ def opened(
                 if build.ok:
                     shelf.forget()
                     shelf = Shelf(entries_of(trees), [])
-                    library.renew(shelf.figures, build.complaints)
+                    library.renew(shelf.figures, build.complaints, originals=shelf.originals)
                     files = {**seen(folder, shelf.files), **now}  # what was saved meanwhile is seen the next time
                 else:
                     library.complain(build.complaints)

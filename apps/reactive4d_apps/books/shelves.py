@@ -3,15 +3,18 @@
 import json
 import sys
 import threading
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from reactive4d.errors import Reactive4dError
 from reactive4d.illustrations import Figure, subject
 from reactive4d_apps.books.builds import FIGURES
+from reactive4d_apps.serving.confinements import can_confine
+from reactive4d_apps.serving.copies import Original
 from reactive4d_apps.serving.exhibits import Exhibit
 from reactive4d_apps.serving.lines import Answers
+from reactive4d_apps.serving.scripts import original
 
 __all__ = ["Shelf", "entries_of"]
 
@@ -80,6 +83,12 @@ class Shelf:
                 self._exhibits[line] = Exhibit(entry["name"], figure, values=values, options=entry["options"])
             return self._exhibits[line]
 
+    @property
+    def originals(self) -> Mapping[str, Original]:
+        """Figures of which a reader may have a private copy; each is made when it is first wanted."""
+        editable = [line for line, entry in self._entries.items() if entry.get("editable")]
+        return _Originals(self, editable if can_confine() else [])
+
     def forget(self) -> None:
         """Programs were edited: they are imported anew when they are next asked for."""
         with self._lock:
@@ -94,6 +103,25 @@ class Shelf:
 def _spanned(times: Any) -> Any:
     """Times as they were said: two are a span."""
     return tuple(times) if isinstance(times, list) and len(times) == 2 else times  # pyright: ignore
+
+
+class _Originals(Mapping[str, Original]):
+    """Scripts by the names of their lines."""
+
+    def __init__(self, shelf: Shelf, lines: list[str]) -> None:
+        self._shelf = shelf
+        self._lines = lines
+
+    def __getitem__(self, line: str) -> Original:
+        if line not in self._lines:
+            raise KeyError(line)
+        return original(self._shelf.exhibit(line))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._lines)
+
+    def __len__(self) -> int:
+        return len(self._lines)
 
 
 class _Late:

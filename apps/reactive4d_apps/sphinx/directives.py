@@ -51,6 +51,7 @@ class IllustrationDirective(SphinxDirective):
         "follow": directives.unchanged_required,
         "alt": directives.unchanged_required,
         "code": _code,
+        "editable": directives.flag,
         "after": directives.unchanged_required,
         "depends": directives.unchanged_required,
         "class": directives.class_option,
@@ -64,6 +65,7 @@ class IllustrationDirective(SphinxDirective):
         live = Illustration("", **{key: given.get(key) for key in self.option_spec if key not in ("class", "caption")})
         self.set_source_info(live)
         place = self.arguments[0].strip() if self.arguments else ""
+        live["editable"] = "editable" in given
         live["place"] = self._path(place) if place.endswith(".scefo") else place
         live["besides"] = [self._path(word) for word in (given.get("depends") or "").split()]
         live["code_at"] = given.get("code") or ("none" if place else "above")

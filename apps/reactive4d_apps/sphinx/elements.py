@@ -6,7 +6,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.util.osutil import relative_uri
 
-__all__ = ["Check", "Fold", "Illustration", "Link", "Number", "Word", "add_elements"]
+__all__ = ["Check", "Fold", "Illustration", "Link", "Number", "Script", "Word", "add_elements"]
 
 
 class Illustration(nodes.General, nodes.Element):
@@ -29,8 +29,15 @@ class Check(nodes.General, nodes.TextElement):
     """Whether an exercise is done."""
 
 
+class Script(nodes.General, nodes.Element):
+    """The script of a figure, which a reader may edit where a server is."""
+
+
 class Fold(nodes.General, nodes.Element):
     """What a reader unfolds; its first child is the title."""
+
+
+ELSEWHERE = "Where the book is served, a reader can edit this script, in a copy of their own."
 
 
 def _open(name: str, attributes: dict[str, Any]) -> str:
@@ -92,6 +99,14 @@ def _leaving(name: str) -> Any:
     return depart
 
 
+def _visit_script(translator: Any, node: nodes.Element) -> None:
+    translator.body.append(_open("r4d-script", {"figure": node["figure"]}))
+
+
+def _depart_script(translator: Any, node: nodes.Element) -> None:
+    translator.body.append(f'</r4d-script>\n<p class="r4d-elsewhere">{ELSEWHERE}</p>\n')
+
+
 def _visit_fold(translator: Any, node: nodes.Element) -> None:
     translator.body.append(f'<details class="{escape(node["kind"])}"><summary>{escape(node["title"])}</summary>\n')
 
@@ -111,6 +126,7 @@ def add_elements(app: Any) -> None:
         Number: (_visit_number, _leaving("r4d-number")),
         Link: (_visit_link, _leaving("r4d-link")),
         Word: (_visit_word, _leaving("r4d-word")),
+        Script: (_visit_script, _depart_script),
         Fold: (_visit_fold, _leaving("details")),
     }
     for kind, both in words.items():

@@ -15,8 +15,8 @@ from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
 from reactive4d.illustrations import Bookmark, subject
 from reactive4d_apps.sphinx.bakings import SIZE, Baking, Pantry, Still, Wish, opening
 from reactive4d_apps.sphinx.casts import Cast, Company
-from reactive4d_apps.sphinx.elements import Check, Fold, Illustration, Link, Number, Word
-from reactive4d_apps.sphinx.programs import Coded, Placed, Program, kept
+from reactive4d_apps.sphinx.elements import Check, Fold, Illustration, Link, Number, Script, Word
+from reactive4d_apps.sphinx.programs import Coded, Placed, Program, kept, script_of
 from reactive4d_apps.sphinx.sources import digest_of
 from reactive4d_apps.sphinx.wordings import named, times_of
 from reactive4d_widgets.tables import compact
@@ -195,6 +195,7 @@ class Readings(SphinxTransform):
             "parameters": dict(wish.parameters),
             "options": dict(wish.options),
             "title": node["title"],
+            "editable": node["editable"],
         }
         self._still(node, still)
 
@@ -207,11 +208,14 @@ class Readings(SphinxTransform):
 
     def _code(self, node: Illustration, figure: nodes.figure, program: Program) -> None:
         where = node["code_at"]
-        if where == "none":
+        if where == "none" and not node["editable"]:
             return
-        text = program.text
-        block = nodes.literal_block(text, text, language=program.language)
-        block.source, block.line = node.source, node.line
+        text = script_of(program.thing()) if node["editable"] else program.text
+        language = "scefo" if node["editable"] else program.language
+        listing = nodes.literal_block(text, text, language=language)
+        listing.source, listing.line = node.source, node.line
+        block = Script("", listing, figure=node["name"]) if node["editable"] else listing
+        where = "below" if where == "none" else where
         parent = figure.parent
         at = parent.index(figure)
         if where == "above":

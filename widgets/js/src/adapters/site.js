@@ -6,7 +6,9 @@
 
 import { baked } from "../transports/baked.js";
 import { socket } from "../transports/socket.js";
+import { ScriptElement } from "../ui/script-element.js";
 import { Addresses } from "./addresses.js";
+import { editable } from "./copies.js";
 import { define } from "./page.js";
 import { lineOf } from "./trame.js";
 
@@ -34,7 +36,10 @@ export async function site(page) {
       const source = new URL(figure.dataset.source ?? "", page.baseURI).href;
       const held = () => dataOf(load, source);
       if (server && figure.dataset.line) {
-        live(figure, lineOf(new URL(server, page.baseURI).href, figure.dataset.line), held);
+        const base = new URL(server, page.baseURI).href;
+        const share = () => live(figure, lineOf(base, figure.dataset.line ?? ""), held);
+        share();
+        edited(page, figure, { share, copy: lineOf(base, figure.dataset.line, "copy") });
       } else figure.transport = baked(await held());
     } catch (error) {
       figure.fail(`This figure cannot be shown. ${error instanceof Error ? error.message : error}`);
@@ -59,6 +64,20 @@ function live(figure, address, held) {
     return baked(await held());
   });
   figure.dataset.state = "live";
+}
+
+/**
+ * Let a reader edit the script of a figure, if the page has one for it.
+ * @param {Document} page
+ * @param {FigureElement} figure
+ * @param {import("./copies.js").Places} places
+ */
+function edited(page, figure, places) {
+  const scripts = /** @type {ScriptElement[]} */ ([...page.querySelectorAll("r4d-script")]);
+  const element = scripts.find((one) => one.getAttribute("figure") === figure.name);
+  if (!element) return;
+  if (!customElements.get("r4d-script")) customElements.define("r4d-script", ScriptElement);
+  editable(figure, element, places);
 }
 
 /**
