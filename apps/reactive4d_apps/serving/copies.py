@@ -104,6 +104,14 @@ class Copy:
         except (OSError, ValueError):
             raise self._ended() from None
 
+    def over(self, silent: float) -> str | None:
+        """Why it should be no more, if it was not asked anything for so many seconds; None if it may go on."""
+        with self._lock:
+            process = None if self._is_closed else self._process
+        if process is not None and process.poll() is not None and silent > 0.0:
+            return _why(process.returncode, self.limits)
+        return f"nobody asked it for anything for {silent:.3g} s" if silent > self.limits.copy_idle else None
+
     def close(self) -> None:
         """End it, with all that it may have begun; nobody waits for that."""
         with self._lock:

@@ -150,7 +150,7 @@ class Hall:
                 lambda tell: copy,
                 self._copyists,
                 asked=EDITED,
-                idle=self.limits.copy_idle,
+                over=copy.over,
             )
         finally:
             self.copies.discard(copy)
@@ -172,7 +172,7 @@ class Hall:
         workers: Workers | None,
         *,
         asked: frozenset[str] = ASKED,
-        idle: float | None = None,
+        over: Callable[[float], str | None] | None = None,
     ) -> web.StreamResponse:
         """Open a connection and keep it until it ends."""
         if self._open >= self.limits.readers:
@@ -192,7 +192,7 @@ class Hall:
             title, transport = called.format(next(self._numbers)), request.transport
             abort = transport.abort if transport is not None else _nothing
             line = Line(
-                socket, answers, workers.turns(), self.limits, title, abort, hold=_hold(request), asked=asked, idle=idle
+                socket, answers, workers.turns(), self.limits, title, abort, hold=_hold(request), asked=asked, over=over
             )
             self.lines.add(line)
             LOG.info("%s comes from %s", title, request.remote)

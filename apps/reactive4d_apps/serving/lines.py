@@ -26,6 +26,7 @@ ASKED = frozenset({"open", "ask", "need", "picture"})
 ENDED = 4001  # the code with which a connection ends whose private copy is no more
 SILENT = frozenset({"dropped"})
 MOST_SPANS = 10_000  # of news that wait; beyond, the reader opens again
+LOOK = 0.25  # seconds between two looks at whoever answers
 PIECE = 16_384  # bytes; a message counts as one, and one more for each of these
 
 
@@ -61,7 +62,7 @@ class Line:
         abort: cuts the connection, whatever is still to be sent.
         hold: called with whether nothing is to be read from the connection for now.
         asked: the kinds of messages that are answered.
-        idle: seconds after which it ends if nothing is heard; None: never.
+        over: why the connection should end, given for how many seconds nothing was heard; None: never.
 
     Attributes:
         heard: how many messages were read.
@@ -78,7 +79,7 @@ class Line:
         *,
         hold: Callable[[bool], None],
         asked: frozenset[str] = ASKED,
-        idle: float | None = None,
+        over: Callable[[float], str | None] | None = None,
     ) -> None:
         self.socket = socket
         self._abort = abort
@@ -87,7 +88,7 @@ class Line:
         self.limits = limits
         self.name = name
         self.asked = asked
-        self.idle = idle
+        self._over = over
         self._heard_at = time.monotonic()
         self._loop = asyncio.get_running_loop()
         self._bucket = Bucket(limits.rate, limits.burst)
@@ -266,13 +267,13 @@ class Line:
             await self._send(None)
 
     async def _watch(self) -> None:
-        """End what nobody uses."""
-        while self.idle is not None:
-            left = self._heard_at + self.idle - time.monotonic()
-            if left <= 0.0 and not self._working:
-                await self.go(f"nobody asked it for anything for {self.idle:g} s")
+        """End what nobody uses, and what has ended by itself."""
+        while self._over is not None:
+            await asyncio.sleep(LOOK)
+            silent = 0.0 if self._working else time.monotonic() - self._heard_at
+            if (reason := self._over(silent)) is not None:
+                await self.go(reason)
                 return
-            await asyncio.sleep(max(left, 0.1))
 
     # -- the end ---------------------------------------------------------------------------------------------------
 
