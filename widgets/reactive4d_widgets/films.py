@@ -152,8 +152,8 @@ def _rate(rate: Any) -> float:
         found = float(rate)
     except (TypeError, ValueError):
         found = math.nan
-    if not 0.0 < found <= 1000.0:
-        raise hint(ShapeError(f"rate: expected pictures per second, got {rate!r}"), "rate=25")
+    if not 0.01 <= found <= 1000.0:
+        raise hint(ShapeError(f"rate: expected pictures per second, got {rate!r}"), "rate=25; from 0.01 to 1000")
     return found
 
 

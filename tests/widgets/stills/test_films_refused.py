@@ -41,6 +41,7 @@ def told(error: BaseException) -> str:
         ({"t": 1.5, "times": (0, 1)}, r4.TimeError, "a film has either"),
         ({"t": "now", "size_": [1, 2]}, r4.TimeError, "expected a number of seconds, got 'now'"),
         ({"rate": 0}, r4.ShapeError, "rate: expected pictures per second, got 0"),
+        ({"rate": 1e-4}, r4.ShapeError, "hint: rate=25; from 0.01 to 1000"),
         ({"rate": "fast"}, r4.ShapeError, "rate: expected pictures per second, got 'fast'"),
         ({"rate": float("nan")}, r4.ShapeError, "rate"),
         ({"size": (0, 10)}, r4.ShapeError, "size"),
