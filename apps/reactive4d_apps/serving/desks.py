@@ -93,11 +93,13 @@ class Desk:
         times = said.get("times")
         figure = Figure(scene, title=said.get("title"), times=tuple(times) if isinstance(times, list) else times)  # pyright: ignore
         try:
-            return Exhibit(said["name"], figure, values=said.get("values"), options=said.get("options"))
+            return Exhibit(
+                said["name"], figure, values=said.get("values"), options=said.get("options"), pictures="never"
+            )
         except Reactive4dError:
             looks: dict[str, Any] = said.get("options") or {}
             options = {key: value for key, value in looks.items() if key != "playing"}
-            return Exhibit(said["name"], figure, options=options)
+            return Exhibit(said["name"], figure, options=options, pictures="never")
 
     # -- what nobody has to know -----------------------------------------------------------------------------------
 
