@@ -40,6 +40,7 @@ export class Life {
   /** @type {Hit | null} */ #selected = null;
   /** @type {Parameters | null} */ #parameters = null;
   #stripped = 0;
+  /** @type {ReturnType<typeof setTimeout> | null} */ #stripper = null;
   #described = 0;
   #drawn = false;
   /** @type {Remote | null} */ #remote = null;
@@ -97,7 +98,7 @@ export class Life {
     const { session } = this.#parts;
     this.#off.push(
       session.on("commit", (snapshot) => this.#show(snapshot)),
-      session.on("wait", (waiting) => { this.picture.wait(waiting); this.#strip(true); }),
+      session.on("wait", (waiting) => { this.picture.wait(waiting); this.#strip(false); }),
       session.on("stale", () => this.#strip(true)),
       session.on("problem", (problem) => this.picture.fail([problem])),
       reader.on("point", () => this.#moved()),
@@ -233,10 +234,15 @@ export class Life {
     return [timeText(time), ...parameterTexts(this.manifest, parameters)].join(", ");
   }
 
-  /** @param {boolean} now */
+  /** At once, or at most four times a second: who drags shall not wait for it. @param {boolean} now */
   #strip(now) {
     const at = performance.now();
-    if (!now && at - this.#stripped < 250) return;
+    if (!now && at - this.#stripped < 250) {
+      this.#stripper ??= setTimeout(() => this.#strip(true), 250);
+      return;
+    }
+    if (this.#stripper !== null) clearTimeout(this.#stripper);
+    this.#stripper = null;
     this.#stripped = at;
     const { start, stop } = this.manifest.times;
     this.player.strip(this.#parts.session.spans(start, stop));
