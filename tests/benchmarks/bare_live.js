@@ -24,9 +24,11 @@ function unpacked(data) {
 /**
  * @param {{address: string, node: string, parameter: string, value: number, color: number[]}} what
  * @param {HTMLCanvasElement} canvas
+ * @param {HTMLInputElement} slider that is moved with the value
+ * @param {HTMLElement} number that says it
  * @returns {Promise<(value: number) => Promise<void>>} draws the node with the parameter at another value
  */
-async function begin({ address, node, parameter, value, color }, canvas) {
+async function begin({ address, node, parameter, value, color }, canvas, slider, number) {
   const socket = new WebSocket(address);
   socket.binaryType = "arraybuffer";
   /** @type {Map<number, (reply: any) => void>} */
@@ -89,6 +91,8 @@ async function begin({ address, node, parameter, value, color }, canvas) {
   };
   draw(points);
   return async (wish) => {
+    slider.valueAsNumber = wish;
+    number.textContent = wish.toFixed(2);
     const reply = await asked(wish, [`${node}#points`]);
     draw(reply.arrays.get(track(reply, `${node}#points`).ref));
   };

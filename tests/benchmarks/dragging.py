@@ -1,7 +1,8 @@
 """A live slider: from the reader's wish to the committed frame, beside a bare page of three.js at the same socket.
 
 Both pages ask the server of one model, each over a web socket of its own, for values that nobody asked for before; both
-get the same bytes and draw as many points. It needs Chromium, Playwright, trame, and the packages of widgets/js.
+get the same bytes, draw as many points, and move a slider and a number with them. It needs Chromium, Playwright, trame,
+and the packages of widgets/js.
 """
 
 import statistics
@@ -25,9 +26,14 @@ SIZE = (736, 459)  # CSS pixels of a picture
 OURS = """async ([first, step, count]) => {
   const pixel = new Uint8Array(4);
   const figure = document.querySelector("r4d-figure");
+  const draw = () => {
+    drawn();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  };
   const found = [];
   for (let k = 0; k < count; k++) {
     const phase = first + k * step;
+    draw(); // what was still to be drawn of the time before
     const before = performance.now();
     await new Promise((done) => {
       const heard = () => {
@@ -38,10 +44,8 @@ OURS = """async ([first, step, count]) => {
       figure.addEventListener("r4d-commit", heard);
       figure.reader.change({ parameters: { phase } }, { gesture: "drag" });
     });
-    drawn();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    draw();
     found.push(performance.now() - before);
-    await new Promise((done) => setTimeout(done, 20));
   }
   return found;
 }"""
@@ -51,9 +55,17 @@ BARE = """async ([first, step, count]) => {
     const before = performance.now();
     await move(first + k * step);
     found.push(performance.now() - before);
-    await new Promise((done) => setTimeout(done, 20));
   }
   return found;
+}"""
+
+
+BODY = """([width, height]) => {
+  const [canvas, slider, number] = ["canvas", "input", "output"].map((name) => document.createElement(name));
+  Object.assign(canvas, { width, height });
+  Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
+  canvas.style.display = "block";
+  document.body.replaceChildren(canvas, slider, number);
 }"""
 
 
@@ -96,16 +108,15 @@ def _measure(run: Run, section: Section, browser: Any, segments: int, code: str)
     kind: Any = type("Ball", (Ball,), {"segments": segments, "__doc__": Ball.__doc__})
     fig = kind()
     points = len(fig.scene.at(0.0)["ball"].mesh.points)
-    count = 10 if run.quick else 30
+    turns = 10 if run.quick else 40
     with fig.serve(block=False) as server:
         ours, bare = _ours(browser, server.address), _bare(browser, server.address, code)
         mine: list[float] = []
         theirs: list[float] = []
-        for k in range(-1, 4):  # by turns: what else runs on the machine comes and goes; the first is to warm up
-            first = 100.0 * (k + 2)
-            one = ours.evaluate(OURS, [first, 0.5, count])
-            other = bare.evaluate(BARE, [first + 0.25, 0.5, count])
-            if k >= 0:
+        for k in range(turns):  # by short turns: what else runs on the machine comes and goes
+            one = ours.evaluate(OURS, [k + 1.0, 0.1, 3])
+            other = bare.evaluate(BARE, [k + 1.05, 0.1, 3])
+            if k >= 2:  # the first are to warm up
                 mine += one
                 theirs += other
         ours.close()
@@ -130,11 +141,7 @@ def _bare(browser: Any, address: str, code: str) -> Any:
     """A page of the server's own, since it lets no others ask: a style sheet, in which there is nothing yet."""
     window = browser.new_page(viewport={"width": 1000, "height": 900})
     window.goto(f"{address}page.css")
-    window.evaluate(
-        "([w, h]) => { const c = document.createElement('canvas'); c.width = w; c.height = h;"
-        " document.body.replaceChildren(c) }",
-        list(SIZE),
-    )
+    window.evaluate(BODY, list(SIZE))
     window.evaluate(code)
     what = {
         "address": f"{address}live/ball".replace("http", "ws", 1),
@@ -143,5 +150,5 @@ def _bare(browser: Any, address: str, code: str) -> Any:
         "value": 0.0,
         "color": [0.061, 0.223, 0.456],
     }
-    window.evaluate("async (what) => { window.move = await begin(what, document.querySelector('canvas')) }", what)
+    window.evaluate("async (what) => { window.move = await begin(what, ...document.body.children) }", what)
     return window
