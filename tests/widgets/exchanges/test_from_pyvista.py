@@ -301,7 +301,7 @@ def test_cells_of_other_colours_have_no_edges_between_them_and_stay_smooth():
         shape(drawn(r4.from_pyvista(data, scalars=x)), way="as it is", matrix=np.eye(4)) for x in (False, "n")
     )
     assert len(plain.cut.edges) == len(coloured.cut.edges) == 0
-    assert len(coloured.points) == 3 * data.n_cells
+    assert len(coloured.points) > 2 * len(plain.points)
     assert np.allclose(plain.normals[plain.faces], coloured.normals[coloured.faces], atol=1e-6)
     part = r4.from_pyvista(data, scalars=False, color="red") - r4.Box(size=(1, 1, 0.2), color="blue")
     assert len(shape(drawn(part), way="as it is", matrix=np.eye(4)).cut.edges) > 0
