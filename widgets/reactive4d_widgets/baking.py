@@ -4,6 +4,7 @@ Everything that the page can show is asked beforehand, each cell once, and writt
 """
 
 import os
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ from reactive4d.geometry.files import put
 from reactive4d.illustrations import Figure, Page
 from reactive4d.illustrations import subject as subject_of
 from reactive4d.illustrations.controls import listed
+from reactive4d.model.scenes import Scene
 from reactive4d_widgets.bundles import packed, styles
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.estimates import estimated, refuse_if_too_large, too_large
@@ -24,43 +26,14 @@ from reactive4d_widgets.pages import document, refuse_wrong_words
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.progress import Bar, bar
 from reactive4d_widgets.proofs import proofread
-from reactive4d_widgets.tables import Problem, tabulated
+from reactive4d_widgets.reports import Report
+from reactive4d_widgets.tables import tabulated
 
 __all__ = ["LIMIT", "Report", "bake"]
 
 LIMIT = 20_000_000
 POSTER = 60_000  # bytes of a picture, about
 ENDINGS = (".html", ".htm")
-
-
-@dataclass(frozen=True, slots=True)
-class Report:
-    """What became of a page.
-
-    Attributes:
-        path: where it is.
-        size: bytes of the file.
-        asks: how often the model was asked; what was remembered is counted, too.
-        sizes: bytes by figure and channel: `pendulum/rod#points`.
-        problems: what went wrong in the model; the page says so where it happens.
-        notes: what readers cannot reach: parameters that stay where they are, links that do not arrive.
-    """
-
-    path: Path
-    size: int
-    asks: int
-    sizes: Mapping[str, int]
-    problems: tuple[Problem, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        told = f"{self.path}: {self.size / 1e3:.0f} KB, {self.asks} asks"
-        count = len(self.problems)
-        if count:
-            told += f", {count} error{'' if count == 1 else 's'} in the model:"
-        return "\n  ".join([told, *map(str, self.problems[:10]), *self.notes[:10]])
-
-    __repr__ = __str__
 
 
 def bake(
@@ -85,7 +58,8 @@ def bake(
         path: of the file, .html; an old one stays until the new one is whole.
         times: None for the subject's own, (start, stop), or evenly spaced times, seconds; 30 ticks per second.
         text: Markdown; see docs/pages.md for what it may say. The figure stands above it unless it places it itself.
-        title: of the page; otherwise its first heading, or what the subject is called.
+        title: of the page; otherwise its first heading, or what the subject is called; a plain scene is called by the
+            words of the file's name.
         limit: bytes; a larger page is refused, mostly before it is asked for.
         progress: whether a bar is shown, where there is a terminal.
         lang: of the text, as in HTML.
@@ -128,7 +102,8 @@ def bake(
         raise hint(ShapeError(f"limit: expected a number of bytes, got {limit!r}"), "limit=50e6, or np.inf")
     packed()  # whoever lacks the viewer is told at once
     styles()
-    figures = {subject_of(subject).name: Figure(subject)} if page is None else dict(page.figures)
+    called = _words_of(target) if type(subject) is Scene else None
+    figures = {subject_of(subject).name: Figure(subject, title=called)} if page is None else dict(page.figures)
     given = {**values, **(parameters or {})}
     _refuse_strangers(figures, given)
     orders = {name: _order(name, figure, given, times, options) for name, figure in figures.items()}
@@ -153,6 +128,12 @@ def _target(path: str | os.PathLike[str]) -> Path:
     if target.is_dir():
         raise IsADirectoryError(21, "this is a folder", str(target))
     return target
+
+
+def _words_of(path: Path) -> str | None:
+    """The words of a file's name, the first of them with a capital."""
+    words = " ".join(re.findall(r"[^\W_]+", path.stem))
+    return words[:1].upper() + words[1:] or None
 
 
 def _known(thing: Any) -> set[str]:

@@ -85,7 +85,7 @@ def planned(
         TimeError: times that are neither.
         UnknownNameError: a parameter that nobody knows.
         ParameterError: a value that its parameter does not admit.
-        ShapeError: a name of more than a thousand letters.
+        ShapeError: a name of more than a thousand letters, or one that a value shares with a parameter.
         Reactive4dError: the scene is empty.
 
     >>> import reactive4d as r4
@@ -113,11 +113,11 @@ def planned(
         if len(values) == 1 or (control.kind == "number" and not values[0] <= opens[name] <= values[-1]):
             opens[name] = base[name]
     plan = Plan(found, span, base=base, stops=stops, opens=opens)
-    _refuse_long_names(plan)
+    _refuse_wrong_names(plan)
     return plan
 
 
-def _refuse_long_names(plan: Plan) -> None:
+def _refuse_wrong_names(plan: Plan) -> None:
     """What a viewer takes for a mistake is told before it is asked for."""
     named = {
         "object": [seat.name for seat in plan.seats],
@@ -126,6 +126,10 @@ def _refuse_long_names(plan: Plan) -> None:
         "handle": [handle["label"] for handle in plan.subject.handles],
         "scene": [plan.subject.title],
     }
+    for name in named["value"]:
+        if name in plan.controls:
+            error = ShapeError(f"a value and a parameter are both called {name!r}")
+            raise hint(error, f"give the value another name in scene.signals: what {{{name}}} means has to be plain")
     for what, names in named.items():
         for name in names:
             count = len(name.encode("utf-16-le", "surrogatepass")) // 2  # as JavaScript counts

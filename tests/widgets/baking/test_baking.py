@@ -172,7 +172,7 @@ def test_nothing_breaks_out_of_its_place(tmp_path: Path) -> None:
     assert len(page.scripts) == 3
     assert page.all("b") == []
     (data,) = page.data().values()
-    assert data["manifest"]["title"] == "Scene"
+    assert data["manifest"]["title"] == "Page"
     assert [node["name"] for node in data["manifest"]["nodes"]] == ["a <script> & <!--", 'quo"ted', "ok"]
     played = Playback(data)
     assert played.at("a <script> & <!--#text", 0.0) == NASTY
@@ -190,6 +190,10 @@ def test_a_title_is_made_of_what_there_is(tmp_path: Path) -> None:
     bake(Swing, path, text="no heading")
     assert seen(path).title == "Swing"
     assert "<h1>Swing</h1>" in path.read_text(encoding="utf-8")
+    bake(ball(), tmp_path / "a_red-ball.html")
+    assert seen(tmp_path / "a_red-ball.html").title == "A red ball"
+    bake(ball(), tmp_path / "_.html")
+    assert seen(tmp_path / "_.html").title == "Scene"
 
 
 def test_a_figure_that_the_text_does_not_place_stands_above_it(tmp_path: Path) -> None:

@@ -111,3 +111,11 @@ def test_a_name_that_no_viewer_takes_is_told_before_anything_is_asked(tmp_path: 
         r4.Page("", **{long: ball})
     with pytest.raises(ShapeError, match="title: expected a text, got 3"):
         r4.Figure(r4.Scene(ball=ball), title=3)  # pyright: ignore[reportArgumentType]
+
+
+def test_a_value_is_not_called_like_a_parameter() -> None:
+    """A number in braces would be the one or the other."""
+    scene = r4.Scene(ball=r4.Sphere(radius=r4.Parameter("proofs_size", 1.0)))
+    scene.signals["proofs_size"] = 2 * r4.time
+    with pytest.raises(ShapeError, match="a value and a parameter are both called 'proofs_size'"):
+        planned(scene)
