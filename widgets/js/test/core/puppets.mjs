@@ -94,7 +94,9 @@ export function counted(transport) {
   const counts = { asks: 0, needs: 0, channels: 0, bytes: 0, drops: 0 };
   /** @type {Transport} */
   const wrapped = {
-    ...transport,
+    open: () => transport.open(),
+    onStale: (listener) => transport.onStale(listener),
+    close: () => transport.close(),
     ask: async (ask) => {
       counts.asks++;
       counts.channels += ask.channels.length;

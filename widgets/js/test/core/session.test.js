@@ -199,7 +199,7 @@ test("the strip shows what is remembered, computed, stale and missing", async ()
 test("an array that went is asked for again, once, and is a problem if it does not come", async () => {
   const array = named(new Float32Array([0, 0, 0]), [1, 3]);
   const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
-  const channels = { drawn: "points", visible: true, color: [1, 1, 1, 1], matrix };
+  const channels = { drawn: "points", visible: true, color: [1, 1, 1, 1], matrix, paints: null };
   const tracks = Object.entries(channels).map(([channel, value]) => [channel, { kind: "const", value }]);
   const segments = [...tracks, ["points", { kind: "ref", ref: array.ref }]].map(([channel, track]) => (
     { channel: `dot#${channel}`, when: [null, null], where: {}, track }));
