@@ -3,6 +3,7 @@
 The system keeps most of it: limits, and a filter of calls where it has one. What it does not, Python refuses.
 """
 
+import contextlib
 import os
 import signal
 import sys
@@ -87,7 +88,8 @@ def confine(*, memory: int, seconds: float, folder: str | None, files: Collectio
     bound("RLIMIT_FSIZE", 0)
     bound("RLIMIT_NOFILE", FILES)
     bound("RLIMIT_CPU", max(1, round(seconds)), max(1, round(seconds)) + 2)
-    bound("RLIMIT_AS", _addresses() + memory)
+    with contextlib.suppress(ValueError, OSError):  # macOS knows the name, and keeps no such limit
+        bound("RLIMIT_AS", _addresses() + memory)
     filtered()
     sys.addaudithook(_guard(folder, frozenset(files)))
 
