@@ -6,6 +6,7 @@ from typing import Any
 from reactive4d.errors import Reactive4dError
 from reactive4d.illustrations import Bookmark
 from reactive4d.illustrations.controls import listed
+from reactive4d.model.colorings import Shade, Texture
 from reactive4d_widgets.figures import Shown
 
 __all__ = ["notes"]
@@ -19,11 +20,15 @@ def notes(shown: Iterable[Shown], links: Iterable[tuple[str, str]]) -> tuple[str
         links: the figures and points that its text links to.
 
     Returns:
-        For each figure the parameters that cannot be moved, and each link that does not arrive.
+        For each figure the parameters that cannot be moved, also where one is to play, the changes of surfaces that no
+        page draws, and each link that does not arrive.
     """
     figures = {figure.name: figure for figure in shown}
+    own = [figure for figure in figures.values() if figure.source == figure.name]
     return (
-        *(note for figure in figures.values() if figure.source == figure.name for note in _fixed(figure)),
+        *(note for figure in own for note in _fixed(figure)),
+        *(note for figure in own for note in _idle(figure)),
+        *(note for figure in own for note in _undrawn(figure)),
         *(note for name, point in dict.fromkeys(links) for note in _missed(figures[name], point)),
     )
 
@@ -40,6 +45,24 @@ def _fixed(figure: Shown) -> Iterator[str]:
     if movable:
         told = ", ".join(f"{name}=[\N{HORIZONTAL ELLIPSIS}]" for name in movable)
         yield f"{figure.name}: readers cannot move {', '.join(movable)}; values to stop at may be given: {told}"
+
+
+def _idle(figure: Shown) -> Iterator[str]:
+    """A parameter that is to play, and stays where it is."""
+    playing = figure.table.manifest["options"].get("playing", "time")
+    if playing != "time" and _entries(figure)[playing]["grade"] == "fixed":
+        yield f"{figure.name}: {playing} is to play, but the page holds one value of it"
+
+
+def _undrawn(figure: Shown) -> Iterator[str]:
+    """Changes that the model knows and a page does not draw."""
+    found: dict[str, list[str]] = {}
+    for seat in figure.plan.seats:
+        for change in () if seat.object is None else seat.object.changes:
+            if isinstance(change, Shade | Texture) and seat.name not in found.setdefault(type(change).__name__, []):
+                found[type(change).__name__].append(seat.name)
+    for kind, names in found.items():
+        yield f"{figure.name}: a page does not draw the {kind} of {', '.join(names)}; colours and opacity it does"
 
 
 def _missed(figure: Shown, point: str) -> Iterator[str]:

@@ -539,6 +539,26 @@ def test_only_what_goes_from_one_bound_to_another_can_play(tmp_path: Path) -> No
         assert seen(report.path).data()["many"]["manifest"]["options"] == {"playing": name}
 
 
+def test_the_report_tells_what_a_page_does_not_draw_or_play(tmp_path: Path) -> None:
+    """Gloss and pictures on surfaces, and a parameter that is to play at one value."""
+
+    class Glossy(r4.Illustration):
+        size = param.Number(1.0, bounds=(0.5, 2.0))
+
+        def build(self) -> r4.Scene:
+            ball = r4.Sphere(radius=self.signals.size.map(lambda size: size**2))
+            ball.apply(r4.Shade(specular=0.5))
+            ball.apply(r4.Opacity(0.5))
+            return r4.Scene(ball=ball, box=r4.Box())
+
+    report = bake(Glossy, tmp_path / "page.html", times=(0, 1), options={"playing": "size"})
+    assert report.notes == (
+        "glossy: readers cannot move size; values to stop at may be given: size=[…]",
+        "glossy: size is to play, but the page holds one value of it",
+        "glossy: a page does not draw the Shade of ball; colours and opacity it does",
+    )
+
+
 @pytest.mark.parametrize(("one", "two"), [("one", None), ("two", "one")])
 def test_a_figure_does_not_follow_itself(one: str, two: str | None, tmp_path: Path) -> None:
     """Neither straight on nor by way of others."""
