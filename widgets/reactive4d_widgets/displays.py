@@ -6,6 +6,7 @@ It is found out first, for VTK ends the process where there is nothing.
 import ctypes
 import os
 import sys
+import threading
 from collections.abc import Generator
 from contextlib import contextmanager
 from functools import cache
@@ -33,15 +34,37 @@ def drawable() -> Generator[None]:
     >>> with drawable():
     ...     import pyvista
     """
-    window = None if not sys.platform.startswith("linux") or CHOICE in os.environ else _window()
-    if window is None:
-        yield
-        return
-    os.environ[CHOICE] = window
+    _choice.enter()
     try:
         yield
     finally:
-        del os.environ[CHOICE]
+        _choice.leave()
+
+
+class _Choice:
+    """What the environment says of VTK's window, which all threads share: as long as one of them draws."""
+
+    def __init__(self) -> None:
+        self._guard = threading.Lock()
+        self._inside = 0
+        self._is_ours = False
+
+    def enter(self) -> None:
+        with self._guard:
+            if not self._inside and sys.platform.startswith("linux") and CHOICE not in os.environ:
+                os.environ[CHOICE] = _window()
+                self._is_ours = True
+            self._inside += 1
+
+    def leave(self) -> None:
+        with self._guard:
+            self._inside -= 1
+            if not self._inside and self._is_ours:
+                self._is_ours = False
+                os.environ.pop(CHOICE, None)
+
+
+_choice = _Choice()
 
 
 def can_draw() -> bool:
