@@ -22,7 +22,10 @@ MODULES = [
     for module in pkgutil.iter_modules(reactive4d_apps.gallery.__path__)
 ]
 CLASSES = [
-    one for module in MODULES for name in module.__all__ if issubclass(one := getattr(module, name), r4.Illustration)
+    one
+    for module in MODULES
+    for name in module.__all__
+    if isinstance(one := getattr(module, name), type) and issubclass(one, r4.Illustration)
 ]
 
 

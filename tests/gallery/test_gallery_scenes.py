@@ -102,7 +102,7 @@ def test_the_car_becomes_the_next_model_at_3_and_6_seconds_and_drives_on():
 
 def test_the_printed_script_stands_still_and_the_other_one_moves():
     """One holds for ever, the other has marks at 2 and 4 seconds."""
-    printed, moving = scripts.Printed().scene, scripts.Moving().scene
+    printed, moving = scripts.Printed().scene, scripts.moving()
     assert list(printed) == list(moving) == ["sphere", "cube", "light", "camera", "egg"]
     assert printed["egg"].matrix.valid(0.0) == r4.FOREVER
     assert [moving["egg"].position.at(t)[2] for t in (0.0, 1.0, 2.0, 4.0)] == [1.0, 1.75, 2.5, 2.5]

@@ -4,11 +4,18 @@ from importlib.resources import as_file, files
 
 import reactive4d as r4
 
-__all__ = ["Moving", "Printed"]
+__all__ = ["Printed", "moving", "scene"]
 
 
 def scene(name: str) -> r4.Scene:
-    """A scene that comes with the package."""
+    """A scene that comes with the package.
+
+    Args:
+        name: of the script's file.
+
+    >>> list(scene("figure1.scefo"))
+    ['sphere', 'cube', 'light', 'camera', 'egg']
+    """
     with as_file(files("reactive4d.scefo") / "scenes") as folder:
         return r4.Scene.load(folder / name)
 
@@ -21,11 +28,12 @@ class Printed(r4.Illustration):
         return scene("figure1.scefo")
 
 
-class Moving(r4.Illustration):
-    """The same with more keys: the egg rises, the camera goes a quarter round, the light turns."""
+def moving() -> r4.Scene:
+    """The same with more keys: the egg rises, the camera goes a quarter round, the light turns.
 
-    def build(self) -> r4.Scene:
-        """The scene, as the script says."""
-        made = scene("figure1_moving.scefo")
-        made.signals["height"] = made["egg"].position[2]
-        return made
+    >>> moving().signals["height"].at(1.0)
+    1.75
+    """
+    made = scene("figure1_moving.scefo")
+    made.signals["height"] = made["egg"].position[2]
+    return made
