@@ -13,7 +13,6 @@ from reactive4d.illustrations.subjects import Subject
 from reactive4d.model.frames import Frame
 from reactive4d_apps.serving.ateliers import Atelier
 from reactive4d_apps.serving.limits import Limits
-from reactive4d_widgets.stage import Stage
 from reactive4d_widgets.themes import THEMES
 from reactive4d_widgets.views import View
 
@@ -118,7 +117,9 @@ def painted(wished: Wish, about: Subject, bounds: Any, atelier: Atelier, reader:
     frame = there.scene.at(wished.time, **there.values)
     options: dict[str, Any] = {"edges": wished.edges, "shadows": wished.shadows}
 
-    def make() -> Stage:
+    def make() -> Any:
+        from reactive4d_widgets.stage import Stage  # with VTK, which is heavy
+
         return Stage(size=wished.size, theme=THEMES[wished.theme], **options)
 
     key = (reader, wished.size, wished.theme, *options.values())
