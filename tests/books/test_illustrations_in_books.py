@@ -224,6 +224,17 @@ def test_an_error_in_the_model_is_told_and_the_figure_stands(book: Book):
     assert "<r4d-figure" in book.html()
 
 
+def test_a_build_that_was_broken_off_is_made_good_by_the_next(book: Book):
+    """What was read and not written is written then, though no page was edited."""
+    book.build(POLE, strict=True)
+    (book.folder / "build" / "doctrees" / "figures-html.json").unlink()
+    (book.folder / "build" / "html" / "index.html").write_text("half", encoding="utf-8")
+    kept = book.kept()
+    book.build(strict=True)
+    assert "<r4d-figure" in book.html()
+    assert book.kept() == kept
+
+
 def test_latex_has_the_pictures(book: Book):
     """Numbers, links and words are their texts."""
     build = book.build(f"{POLE}\nGo {{jump}}`up <height=2>`.\n", builder="latex", strict=True)

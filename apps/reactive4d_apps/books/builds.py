@@ -16,7 +16,7 @@ from reactive4d_apps.phrases import paragraph, sized
 __all__ = ["FIGURES", "TREES", "Build", "built", "made", "source_of"]
 
 TREES = "doctrees"
-FIGURES = "figures.json"  # among them
+FIGURES = "figures-{}.json"  # among them, for each of Sphinx's builders
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -86,7 +86,7 @@ def made(
     if run.returncode != 0:
         return Build(source, site, False, complaints or (run.stdout.strip(),))
     try:
-        figures = len(json.loads((trees / FIGURES).read_text(encoding="utf-8")))
+        figures = len(json.loads((trees / FIGURES.format(builder)).read_text(encoding="utf-8")))
     except OSError:
         figures = 0
     size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file())

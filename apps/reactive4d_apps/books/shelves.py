@@ -24,7 +24,7 @@ Tell = Callable[[dict[str, Any]], None]
 def entries_of(trees: Path) -> dict[str, dict[str, Any]]:
     """What a build noted down of its figures, by the names of their lines."""
     try:
-        return json.loads((trees / FIGURES).read_text(encoding="utf-8"))
+        return json.loads((trees / FIGURES.format("html")).read_text(encoding="utf-8"))
     except OSError:
         return {}
 

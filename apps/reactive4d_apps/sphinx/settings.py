@@ -16,7 +16,7 @@ from reactive4d_apps.sphinx.mathml import visit_displayed, visit_inline
 from reactive4d_apps.sphinx.readings import Readings, pantry_of, site_of
 from reactive4d_apps.sphinx.roles import ROLES
 from reactive4d_apps.sphinx.scripts import ScriptLexer
-from reactive4d_apps.sphinx.sites import FIGURES, script_name, write_data, write_viewer
+from reactive4d_apps.sphinx.sites import figures_file, script_name, write_data, write_viewer
 from reactive4d_apps.sphinx.sources import engine_digest
 from reactive4d_apps.sphinx.stills import Stills
 
@@ -79,15 +79,25 @@ def _begin(app: Any) -> None:
 
 
 def _outdated(app: Any, env: Any, added: set[str], changed: set[str], removed: set[str]) -> list[str]:
-    """Pages with figures are read anew with another engine, and where what is kept of a figure was removed."""
-    folder = pantry_of(app).folder
+    """Pages with figures to be read anew: with another engine, or not written, or something was removed."""
+    folder, done = pantry_of(app).folder, _done(app)
     is_same = getattr(env, "r4d_engine", engine_digest()) == engine_digest()
     env.r4d_engine = engine_digest()
     return [
         page
         for page, entries in site_of(env).items()
-        if not is_same or any(not (folder / f"{entry['key']}.json").exists() for entry in entries.values())
+        if not is_same
+        or any(done.get(line) != json.loads(json.dumps(entry)) for line, entry in entries.items())
+        or any(not (folder / f"{entry['key']}.json").exists() for entry in entries.values())
     ]
+
+
+def _done(app: Any) -> dict[str, Any]:
+    """The figures of what was written last; a build that was broken off wrote less than it read."""
+    try:
+        return json.loads(figures_file(Path(app.doctreedir), app.builder.name).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
 
 
 def _is_html(app: Any) -> bool:
@@ -111,17 +121,15 @@ def _page(app: Any, page: str, template: str, context: dict[str, Any], tree: nod
 
 
 def _finish(app: Any, error: BaseException | None) -> None:
-    if error is not None or not _is_html(app):
+    if error is not None:
         return
     entries = {line: entry for page in site_of(app.env).values() for line, entry in page.items()}
-    static, pantry = Path(app.outdir) / "_static", pantry_of(app)
-    write_viewer(static)
-    size = write_data(static, entries.values(), pantry.folder)
-    put(Path(app.doctreedir) / FIGURES, json.dumps(entries, indent=1).encode("utf-8"))
-    LOG.info(
-        "%d figures, %d asked anew, %d pictures drawn; their data take %.1f MB",
-        len(entries),
-        pantry.asked,
-        pantry.drawn,
-        size / 1e6,
-    )
+    pantry, size = pantry_of(app), 0
+    if _is_html(app):
+        static = Path(app.outdir) / "_static"
+        write_viewer(static)
+        size = write_data(static, entries.values(), pantry.folder)
+    file = figures_file(Path(app.doctreedir), app.builder.name)
+    put(file, json.dumps(entries, indent=1).encode("utf-8"))
+    told = "%d figures, %d asked anew, %d pictures drawn; their data take %.1f MB"
+    LOG.info(told, len(entries), pantry.asked, pantry.drawn, size / 1e6)

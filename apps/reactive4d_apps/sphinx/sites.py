@@ -17,9 +17,8 @@ from reactive4d_apps.sphinx.sources import digest_of
 from reactive4d_widgets.bundles import packed, styles
 from reactive4d_widgets.tables import compact
 
-__all__ = ["FIGURES", "LOADER", "script_name", "write_data", "write_viewer"]
+__all__ = ["LOADER", "figures_file", "script_name", "write_data", "write_viewer"]
 
-FIGURES = "figures.json"
 ALONE = 4096  # bytes; a chunk that takes more is a file of its own
 _OURS = re.compile(r"r4d-[0-9a-f]{16}\.js")
 
@@ -42,6 +41,15 @@ LOADER = """(async () => {
   }
 })();
 """
+
+
+def figures_file(trees: Path, builder: str) -> Path:
+    """Where a build notes down the figures of what it wrote, once it is done.
+
+    >>> figures_file(Path("trees"), "html").name
+    'figures-html.json'
+    """
+    return trees / f"figures-{builder}.json"
 
 
 def _viewer() -> bytes:
