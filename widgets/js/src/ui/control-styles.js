@@ -65,7 +65,8 @@ export const controlStyles = `
 .control .why { grid-column: 2 / -1; margin: -2px 0 4px; color: var(--soft); font-style: italic; }
 .control[data-closed] .name { color: var(--soft); }
 .tip {
-  position: absolute; left: 0; top: calc(100% - 2px); z-index: 4; max-width: min(100%, 22rem); padding: 5px 9px;
+  /* Above its line: below the last one it would make the columns longer, and push what follows away. */
+  position: absolute; left: 0; bottom: calc(100% - 2px); z-index: 4; max-width: min(100%, 22rem); padding: 5px 9px;
   background: var(--raised); border: 1px solid var(--line); border-radius: 4px; box-shadow: 0 1px 8px var(--shade);
   visibility: hidden; opacity: 0;
   transition: opacity 0.12s 0.35s, visibility 0s 0.5s;
