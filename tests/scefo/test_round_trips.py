@@ -525,9 +525,11 @@ class Builder:
             case "KindOf":
                 return self.random.choice([r4.Box, "cone", Ziggurat])
             case _:
-                return {"source": None, "rotation": r4.Rotation.from_axis_angle("y", self.number())}.get(
-                    setting.name, ("anything", 1, None)
-                )
+                return {
+                    "source": None,
+                    "colors": None,
+                    "rotation": r4.Rotation.from_axis_angle("y", self.number()),
+                }.get(setting.name, ("anything", 1, None))
 
     def object(self) -> r4.Object:
         if self.objects and self.chance(0.25):
