@@ -27,6 +27,7 @@ A book whose figures live.
 
 ```{{toctree}}
 :caption: Chapters
+:maxdepth: 1
 :numbered: 1
 :glob:
 
