@@ -41,7 +41,8 @@ MISSED = """() => {
   const look = (root) => {
     for (const node of root.querySelectorAll("*")) {
       if (node.shadowRoot) look(node.shadowRoot);
-      if (!node.matches(wanted) || node.disabled || node.tabIndex < 0 || !node.checkVisibility({ visibilityProperty: true })) continue;
+      if (!node.matches(wanted) || node.disabled || node.tabIndex < 0) continue;
+      if (!node.checkVisibility({ visibilityProperty: true })) continue;
       if (node.type === "radio" && !node.checked) continue;
       if (!node.hasAttribute("data-reached")) missed.push(node.outerHTML.slice(0, 120));
     }
