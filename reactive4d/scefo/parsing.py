@@ -82,8 +82,10 @@ def _parsed(text: str) -> Script:
         try:
             script = parser.feed_token(token)
         except _unexpected():
-            is_opening = previous is not None and opening is token
-            wrong = _no_statement(token, previous, before) if is_opening else _wrong(token, previous, parser.accepts())
+            if previous is not None and opening is token:
+                wrong = _no_statement(token, previous, before)
+            else:
+                wrong = _wrong(token, previous, parser.accepts())
         if wrong is not None:  # raised here, it has no context: what the parser raises cannot be pickled
             raise wrong
         previous = token

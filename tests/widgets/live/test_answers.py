@@ -6,6 +6,7 @@ import pytest
 from viewers import Viewer, agrees
 
 import reactive4d as r4
+from reactive4d_widgets.live import Model
 
 
 class Pendulum(r4.Illustration):
@@ -129,3 +130,21 @@ def test_one_model_is_shared_by_all_who_look_at_a_scene(viewer: Viewer) -> None:
     other = Viewer(viewer.reader.thing, title="Another")
     assert other.reader.model is viewer.reader.model
     assert (other.manifest["title"], viewer.manifest["title"]) == ("Another", "Pendulum")
+
+
+class Reaching(r4.Illustration):
+    """A ball that stands at the end of an arm."""
+
+    arm = param.Number(1.0, bounds=(1.0, 8.0))
+
+    def build(self) -> r4.Scene:
+        """The ball alone."""
+        ball = r4.Sphere(radius=0.5)
+        ball.translate(r4.vec(self.signals.arm, 0.0, 0.0))
+        return r4.Scene(ball=ball)
+
+
+def test_the_opening_view_holds_what_the_parameters_can_make() -> None:
+    """Not only what is seen at their opening values."""
+    low, high = Model.of(Reaching).frame.bounds
+    assert (low[0], high[0]) == pytest.approx((0.5, 8.5), abs=0.02)

@@ -22,7 +22,7 @@ from reactive4d_widgets.live.records import Record, Records
 from reactive4d_widgets.live.stales import Stales
 from reactive4d_widgets.live.vaults import Vault
 from reactive4d_widgets.live.witnesses import settled
-from reactive4d_widgets.plans import Plan, planned
+from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.sights import text_of
 
@@ -103,7 +103,7 @@ class Model:
         """What holds the scene over its times."""
         found = self._frame
         if found is None:
-            found = self._frame = framed(planned(self.thing, times=self.times))
+            found = self._frame = framed(self.thing, times=self.times)
         return found
 
     def told(self, t: float, values: Mapping[str, Any]) -> str:
