@@ -7,9 +7,13 @@ from reactive4d.errors import Reactive4dError
 from reactive4d.illustrations import Bookmark
 from reactive4d.illustrations.controls import listed
 from reactive4d.model.colorings import Shade, Texture
+from reactive4d.model.objects import Object
 from reactive4d_widgets.figures import Shown
 
 __all__ = ["notes"]
+
+UNDRAWN = (Shade, Texture)
+TIMES = 3
 
 
 def notes(shown: Iterable[Shown], links: Iterable[tuple[str, str]]) -> tuple[str, ...]:
@@ -58,11 +62,20 @@ def _undrawn(figure: Shown) -> Iterator[str]:
     """Changes that the model knows and a page does not draw."""
     found: dict[str, list[str]] = {}
     for seat in figure.plan.seats:
-        for change in () if seat.object is None else seat.object.changes:
-            if isinstance(change, Shade | Texture) and seat.name not in found.setdefault(type(change).__name__, []):
-                found[type(change).__name__].append(seat.name)
+        changes = () if seat.object is None else _changes(figure, seat.object)
+        for kind in dict.fromkeys(type(change).__name__ for change in changes if isinstance(change, UNDRAWN)):
+            found.setdefault(kind, []).append(seat.name)
     for kind, names in found.items():
         yield f"{figure.name}: a page does not draw the {kind} of {', '.join(names)}; colours and opacity it does"
+
+
+def _changes(figure: Shown, obj: Object) -> Iterator[Any]:
+    """The changes that act on an object at some times of the page."""
+    asker = figure.plan.asker
+    for t in asker.span.few(TIMES):
+        answer = asker.ask(obj.acting, t, {})
+        for entry in () if answer.error is not None else answer.value:
+            yield entry.change
 
 
 def _missed(figure: Shown, point: str) -> Iterator[str]:
