@@ -26,7 +26,7 @@ from reactive4d_apps.serving.servers import Server
 PATIENCE = 60.0  # seconds; what takes longer has got stuck
 PAGE = """# A pole
 
-```{illustration} models:Pole
+```{illustration} poles:Pole
 :name: pole
 :parameters: height=[0.5, 1, 2]
 ```
@@ -175,8 +175,8 @@ def test_an_edited_program_is_imported_anew(tmp_path: Path):
     [line] = entries
     shelf = Shelf(entries, [book.folder])
     before = shelf.exhibit(line).figure.thing
-    models = book.folder / "models.py"
-    models.write_text(models.read_text(encoding="utf-8").replace("A pole", "A mast"), encoding="utf-8")
+    program = book.folder / "poles.py"
+    program.write_text(program.read_text(encoding="utf-8").replace("A pole", "A mast"), encoding="utf-8")
     assert shelf.exhibit(line).figure.thing is before
     shelf.forget()
     after = shelf.exhibit(line).figure.thing

@@ -10,7 +10,7 @@ from reactive4d_apps.books.builds import Build
 
 POLE = """# A pole
 
-```{illustration} models:Pole
+```{illustration} poles:Pole
 :name: pole
 :parameters: height=[0.5, 1, 2]
 
@@ -62,8 +62,8 @@ def test_a_figure_is_asked_again_only_when_its_program_or_its_parameters_change(
     assert len(first) == 1
     book.build(POLE.replace("As high as", "So high:").replace(":name:", ":size: full\n:name:"), strict=True)
     assert book.kept() == first
-    models = book.folder / "models.py"
-    models.write_text(models.read_text(encoding="utf-8").replace("gold", "tomato"), encoding="utf-8")
+    program = book.folder / "poles.py"
+    program.write_text(program.read_text(encoding="utf-8").replace("gold", "tomato"), encoding="utf-8")
     build = book.build(strict=True)
     assert len(book.kept()) == 2, "the page was not written again, and yet its figure is another one"
     assert "orange" in book.html() or "tomato" in book.html() or "red" in book.html()
@@ -157,29 +157,29 @@ def test_an_exercise_says_whether_it_is_done(book: Book):
 
 
 MISTAKES = [
-    ("```{illustration} models:Poll\n```", 3, "unknown name in models 'Poll'"),
+    ("```{illustration} poles:Poll\n```", 3, "unknown name in poles 'Poll'"),
     ("```{illustration} nowhere:Pole\n```", 3, "there is no module 'nowhere'"),
-    ("```{illustration} models:Pole\n:parameters: width=3\n```", 3, "unknown parameter 'width'"),
-    ("```{illustration} models:Pole\n:parameters: height=[0.5, 9]\n```", 3, "must be at most 2.0"),
-    ("```{illustration} models:Pole\n:parameters: height=len([])\n```", 3, "is no value"),
-    ("```{illustration} models:Pole\n:times: yesterday\n```", 3, "times"),
-    ("```{illustration} models:Pole\n:point: width=3\n```", 3, "unknown parameter 'width'"),
-    ("```{illustration} models:Pole\n:point: paint=crimson\n```", 3, "holds no paint = crimson"),
-    ("```{illustration} models:Pole\n:options: colour=True\n```", 3, "unknown option of a figure 'colour'"),
-    ("```{illustration} models:Pole\n:follow: nobody\n```", 3, "unknown figure to follow 'nobody'"),
-    ("```{illustration} models:Pole\n:width: 3\n```", 4, "width"),
+    ("```{illustration} poles:Pole\n:parameters: width=3\n```", 3, "unknown parameter 'width'"),
+    ("```{illustration} poles:Pole\n:parameters: height=[0.5, 9]\n```", 3, "must be at most 2.0"),
+    ("```{illustration} poles:Pole\n:parameters: height=len([])\n```", 3, "is no value"),
+    ("```{illustration} poles:Pole\n:times: yesterday\n```", 3, "times"),
+    ("```{illustration} poles:Pole\n:point: width=3\n```", 3, "unknown parameter 'width'"),
+    ("```{illustration} poles:Pole\n:point: paint=crimson\n```", 3, "holds no paint = crimson"),
+    ("```{illustration} poles:Pole\n:options: colour=True\n```", 3, "unknown option of a figure 'colour'"),
+    ("```{illustration} poles:Pole\n:follow: nobody\n```", 3, "unknown figure to follow 'nobody'"),
+    ("```{illustration} poles:Pole\n:width: 3\n```", 4, "width"),
     ("```{illustration} gone.scefo\n```", 3, "gone.scefo"),
     ("```{illustration}\n\nx = 1\nx / 0\n```", 6, "ZeroDivisionError: division by zero"),
     ("```{illustration}\nx = = 1\n```", 4, "SyntaxError"),
     ("```{illustration}\nx = 1\n```", 3, "makes nothing that can be shown"),
     ("```{illustration}\n```", 3, "nothing is to be shown"),
-    ("```{illustration} models:Pole\n```\n\n{number}`hight`", 6, "unknown parameter 'hight'"),
-    ("```{illustration} models:Pole\n```\n\n{number}`height:x`", 6, "a format as in f-strings"),
-    ("```{illustration} models:Pole\n```\n\n{value}`bottom`", 6, "unknown value 'bottom'"),
-    ("```{illustration} models:Pole\n```\n\n{word}`the mast <mast>`", 6, "unknown object 'mast'"),
-    ("```{illustration} models:Pole\n```\n\n{jump}`up <width=2>`", 6, "unknown parameter 'width'"),
-    ("```{illustration} models:Pole\n```\n\n{jump}`up <paint=crimson>`", 6, "the page holds no paint = crimson"),
-    ("```{illustration} models:Pole\n```\n\n{jump}`up`", 6, "is no point"),
+    ("```{illustration} poles:Pole\n```\n\n{number}`hight`", 6, "unknown parameter 'hight'"),
+    ("```{illustration} poles:Pole\n```\n\n{number}`height:x`", 6, "a format as in f-strings"),
+    ("```{illustration} poles:Pole\n```\n\n{value}`bottom`", 6, "unknown value 'bottom'"),
+    ("```{illustration} poles:Pole\n```\n\n{word}`the mast <mast>`", 6, "unknown object 'mast'"),
+    ("```{illustration} poles:Pole\n```\n\n{jump}`up <width=2>`", 6, "unknown parameter 'width'"),
+    ("```{illustration} poles:Pole\n```\n\n{jump}`up <paint=crimson>`", 6, "the page holds no paint = crimson"),
+    ("```{illustration} poles:Pole\n```\n\n{jump}`up`", 6, "is no point"),
     ("{number}`height`", 3, "unknown parameter 'height'"),
 ]
 
@@ -208,7 +208,7 @@ def test_a_mistake_is_told_once_with_its_file_and_its_line(mistaken: tuple[Book,
 
 def test_what_is_wrong_is_said_again_until_it_is_mended(book: Book):
     """Though the page was not written again; and where warnings are errors the build fails."""
-    text = "# One\n\n```{illustration} models:Pole\n:times: yesterday\n```\n"
+    text = "# One\n\n```{illustration} poles:Pole\n:times: yesterday\n```\n"
     first, again = book.build(text), book.build()
     assert first.complaints == again.complaints
     assert first.complaints

@@ -49,7 +49,7 @@ class Book:
         self.folder = folder
         folder.mkdir(exist_ok=True)
         (folder / "conf.py").write_text(CONF, encoding="utf-8")
-        (folder / "models.py").write_text(MODELS, encoding="utf-8")
+        (folder / "poles.py").write_text(MODELS, encoding="utf-8")
 
     def write(self, text: str, name: str = "index.md") -> None:
         """Write a page."""
