@@ -47,6 +47,27 @@ def viewer(ball: r4.Sphere) -> Viewer:
     return viewer
 
 
+def test_times_follow_the_keys(ball: r4.Sphere) -> None:
+    """A key inside of them is a new mark, and one after the last a new end; one that only changes is neither."""
+    scene = r4.Scene(ball=ball)
+    viewer = Viewer(scene)
+    viewer.show(1.0)
+    model, points = viewer.reader.model, ball.changes[0].offset.source.points
+
+    def is_reopened(edit: Callable[[], None]) -> bool:
+        viewer.told.clear()
+        edit()
+        model.follow_keys()
+        viewer.reader.flush()
+        return {"type": "reopen"} in viewer.told
+
+    assert not is_reopened(lambda: points.__setitem__(4, (1, 2, 0)))
+    assert is_reopened(lambda: points.__setitem__(3, (1, 1, 1)))
+    assert is_reopened(lambda: points.__setitem__(9, (0, 0, 0)))
+    assert not is_reopened(lambda: None)
+    assert viewer.sent({"type": "open"})["manifest"]["times"]["stop"] == 9.0
+
+
 def test_an_edit_of_a_key_touches_the_time_round_it(ball: r4.Sphere, viewer: Viewer) -> None:
     """Of one channel of one node: the track is sent again, and no array."""
     ball.changes[0].offset.source.points[4] = (1, 2, 0)

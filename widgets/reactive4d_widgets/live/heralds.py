@@ -13,6 +13,7 @@ from reactive4d.engine.engines import engine
 __all__ = ["Herald", "herald"]
 
 PAUSE = 0.005  # seconds in which further edits may come
+CALM = 0.25  # seconds without an edit, after which it is found out whether the times are others
 IDLE = 10.0  # seconds after which a thread ends that has nothing to do
 
 
@@ -70,15 +71,29 @@ class Herald:
 
     def _run(self) -> None:
         pause = threading.Event()
+        is_calm = True
         while True:
-            if not self._heard.wait(IDLE):
+            if not self._heard.wait(IDLE if is_calm else CALM):
+                if not is_calm:
+                    is_calm = True
+                    self._settle()
+                    continue
                 with self._lock:
                     if not self._heard.is_set():
                         self._thread = None
                         return
             pause.wait(PAUSE)
             self._heard.clear()
+            is_calm = False
             self.tell()
+
+    def _settle(self) -> None:
+        for model in list(self._models):
+            with contextlib.suppress(Exception):
+                model.follow_keys()
+            for reader in model.readers:
+                with contextlib.suppress(Exception):
+                    reader.flush()
 
     def tell(self) -> None:
         """Tell all readers of all models, on the thread that asks."""

@@ -46,6 +46,7 @@ class Layout:
             [(seat.name, seat.kind, sorted(seat.channels)) for seat in self.plan.seats],
             [channel.name for channel in self.plan.values],
             [control.description() for control in self.plan.subject.controls],
+            (self.plan.span, self.plan.keys),
         )
 
 

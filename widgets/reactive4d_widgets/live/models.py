@@ -14,6 +14,7 @@ from weakref import WeakSet, WeakValueDictionary
 from reactive4d.engine.engines import engine
 from reactive4d.engine.frames import LOCK, here
 from reactive4d.illustrations import Subject, subject
+from reactive4d.model.reaches import key_times
 from reactive4d_widgets.live.answering import Place
 from reactive4d_widgets.live.heralds import herald
 from reactive4d_widgets.live.layouts import Layout
@@ -25,6 +26,7 @@ from reactive4d_widgets.live.witnesses import settled
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.sights import text_of
+from reactive4d_widgets.spans import span_of
 
 __all__ = ["Model"]
 
@@ -194,6 +196,16 @@ class Model:
             self._note()
         if self._is_other:
             self._replan()
+
+    def follow_keys(self) -> None:
+        """Where keys came, went or moved, times and marks are others, and readers open again.
+
+        This looks at the whole scene: it is done when edits have come to rest.
+        """
+        plan = self.plan
+        if plan.keys != key_times(plan.subject.scene) or plan.span != span_of(self.times, subject(self.thing).times):
+            self._is_other = True
+            self.refresh()
 
     def _note(self) -> bool:
         """Find out what no longer holds; False where somebody has edits under way, and it is not known yet."""
