@@ -44,7 +44,9 @@ def test_the_demo_is_live_in_the_readers_browser(tmp_path: Path):
             assert demo.stdout is not None
             address = demo.stdout.readline().strip()
             assert address.startswith("http://127.0.0.1:"), demo.communicate(timeout=30)
-            told = demo.stdout.readline()
+            told = ""
+            while "ctrl-C" not in told:
+                told += demo.stdout.readline() or "ctrl-C: the demo has ended"
             answer = run(lambda: egg(address))
             demo.send_signal(signal.SIGINT)
             said, complained = demo.communicate(timeout=60)
