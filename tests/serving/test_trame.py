@@ -54,7 +54,7 @@ def test_a_figure_shares_with_the_application_what_it_is_told_to(application, re
     one, other = (read(address, forgive=FORGIVEN) for _ in range(2))
     for page in (one, other):
         page.wait_for_function(SHOWN, arg=[0, 0.5, 1.5])
-        assert page.evaluate(POINTS)[1] == [0.0, 1.0]
+        page.wait_for_function(SHOWN, arg=[1, 0, 1])
     one.locator("input[type=range]").first.fill("0.7")
     for page in (one, other):
         page.wait_for_function(SHOWN, arg=[0, 0.5, 0.7])
