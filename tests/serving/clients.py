@@ -1,6 +1,7 @@
 """Readers without a browser: aiohttp's web sockets, which say what they are told to."""
 
 import asyncio
+import contextlib
 import json
 import struct
 from collections.abc import AsyncIterator, Awaitable, Callable
@@ -156,7 +157,8 @@ async def got_raw(address: str, path: str, *, host: str | None = None, upgrade: 
     writer.write("\r\n".join([*lines, "", ""]).encode())
     status = int((await reader.readline()).split()[1])
     writer.close()
-    await writer.wait_closed()
+    with contextlib.suppress(ConnectionError):  # who refuses may be the first to hang up
+        await writer.wait_closed()
     return status
 
 
