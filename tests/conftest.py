@@ -1,10 +1,15 @@
 """How many examples Hypothesis tries: `ci` is repeatable and thorough, `quick` repeatable, `dev` random and quick.
 
 `ci` is taken where the environment says CI; `pytest --hypothesis-profile=dev` chooses by name.
+
+What needs a browser or OpenGL is skipped where there is none, and is a failure where a change is judged.
 """
 
 import os
+from collections.abc import Iterator
+from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # Programs are run by the tests of them, in their own folder; they are not looked through for examples.
@@ -22,3 +27,34 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("ci" if os.environ.get("CI") else "dev")
+
+
+def _missing(said: str) -> None:
+    """Nobody can skip these tests where a change is judged."""
+    if os.environ.get("CI"):
+        pytest.fail(said, pytrace=False)
+    pytest.skip(said)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Chromium for the tests of one file, so that nothing of it is left when others run."""
+    from reactive4d_apps.browsers import FLAGS, chromium, driver
+
+    path, playing = chromium(), driver()
+    if path is None or playing is None:
+        what = "Chromium" if path is None else "Playwright"
+        _missing(f"there is no {what} here; apt-get install chromium; pip install '.[test]'")
+    with playing.sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="session")
+def opengl() -> None:
+    """For tests that draw without a display."""
+    from reactive4d_widgets.displays import can_draw
+
+    if not can_draw():
+        _missing("there is no OpenGL here; apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri")

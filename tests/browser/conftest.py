@@ -3,7 +3,6 @@
 In CI (the environment says so) these tests run without exception; elsewhere they are skipped where there is no browser.
 """
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,32 +14,6 @@ sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder 
 
 from programs import Program, baked_once
 from readers import Reader
-
-from reactive4d_apps.browsers import FLAGS, chromium, driver
-
-ADVICE = "to run the tests in a browser: apt-get install chromium; pip install '.[test]'"
-
-
-def _missing(what: str) -> None:
-    """Nobody can skip these tests where a change is judged."""
-    said = f"{what}; {ADVICE}"
-    if os.environ.get("CI"):
-        pytest.fail(said, pytrace=False)
-    pytest.skip(said)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """A browser for the tests of one file, so that nothing of it is left when others run."""
-    path, playing = chromium(), driver()
-    if path is None:
-        _missing("there is no Chromium here")
-    if playing is None:
-        _missing("there is no Playwright here")
-    with playing.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        yield started
-        started.close()
 
 
 @pytest.fixture

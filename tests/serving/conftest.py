@@ -1,6 +1,5 @@
 """A server for each test that wants one; afterwards it has ended, and its thread with it."""
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,7 +12,6 @@ sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder 
 
 pytest.importorskip("trame", reason="pip install '.[trame]'")
 
-from reactive4d_apps.browsers import FLAGS, chromium, driver
 from reactive4d_apps.serving import Limits, Server, serve
 from reactive4d_apps.serving.halls import Hall
 
@@ -70,18 +68,6 @@ def answered() -> Iterator[Callable[..., Server]]:
     for server in servers:
         server.close()
         assert not server.is_running
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """Chromium, for the tests of this file."""
-    path, playing = chromium(), driver()
-    if path is None or playing is None:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("there is no Chromium here, or no Playwright")
-    with playing.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        yield started
-        started.close()
 
 
 @pytest.fixture

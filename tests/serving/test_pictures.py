@@ -16,7 +16,6 @@ from PIL import Image
 import reactive4d as r4
 from reactive4d_apps.serving import Limits
 from reactive4d_apps.serving.ateliers import Atelier
-from reactive4d_widgets.displays import can_draw
 from reactive4d_widgets.stills import poster
 
 EYE = {"position": [0, -6, 0], "target": [0, 0, -0.5], "up": [0, 0, 1], "fov": 30}
@@ -28,14 +27,9 @@ for (const kind of [HTMLCanvasElement, OffscreenCanvas]) {
   };
 }
 """
+pytestmark = pytest.mark.usefixtures("opengl")  # all of it draws
+
 SHOWN = "() => document.querySelector('r4d-figure')?.life?.remote > 0"
-
-
-@pytest.fixture(autouse=True)
-def opengl() -> None:
-    """All of it draws."""
-    if not can_draw():
-        pytest.skip("there is no OpenGL here")
 
 
 async def picture(client: Any, t: float = 0.0, **more: Any) -> dict[str, Any]:

@@ -1,23 +1,10 @@
 """What tests of exchanges with other libraries share."""
 
-import os
 import subprocess
 import sys
 from collections.abc import Callable
 
 import pytest
-
-from reactive4d_widgets.displays import can_draw
-
-
-@pytest.fixture(scope="session")
-def opengl() -> None:
-    """For tests that draw: in CI without exception, elsewhere where there is OpenGL."""
-    if not can_draw():
-        said = "there is no OpenGL here; apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
-        if os.environ.get("CI"):
-            pytest.fail(said, pytrace=False)
-        pytest.skip(said)
 
 
 @pytest.fixture(scope="session")
