@@ -1,8 +1,5 @@
 // A bare page that asks a server: three.js draws the points that it is answered, and nothing else.
-import {
-  BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, Mesh, MeshPhongMaterial,
-  PerspectiveCamera, Scene, WebGLRenderer,
-} from "three";
+import { stage } from "./bare_stage.js";
 
 /** A message of the server's: the length of its JSON, the JSON, and the arrays of its chunks. @param {any} data */
 function unpacked(data) {
@@ -56,38 +53,17 @@ async function begin({ address, node, parameter, value, color }, canvas, slider,
   const topology = track(first, `${node}#topology`).value;
   const origin = topology.origin === null ? null : first.arrays.get(topology.origin);
   const points = first.arrays.get(track(first, `${node}#points`).ref);
-  const geometry = new BufferGeometry();
-  const position = new BufferAttribute(new Float32Array(3 * (origin?.length ?? points.length / 3)), 3);
-  geometry.setAttribute("position", position);
-  geometry.setIndex(new BufferAttribute(first.arrays.get(topology.faces), 1));
-  const material = new MeshPhongMaterial({ color: new Color(...color), side: DoubleSide, shininess: 24 });
-  const scene = new Scene();
-  scene.add(new Mesh(geometry, material), new HemisphereLight(0xffffff, 0x8f8a84, 0.44 * Math.PI));
-  for (const intensity of [0.62, 0.14]) {
-    const light = new DirectionalLight(0xffffff, intensity * Math.PI);
-    light.position.set(-1, -2, 3);
-    scene.add(light);
-  }
-  const { position: eye, target, up, fov, near, far } = manifest.view;
-  const camera = new PerspectiveCamera(fov, canvas.width / canvas.height, near, far);
-  camera.up.set(up[0], up[1], up[2]);
-  camera.position.set(eye[0], eye[1], eye[2]);
-  camera.lookAt(target[0], target[1], target[2]);
-  const renderer = new WebGLRenderer({ canvas, antialias: false });
-  renderer.setSize(canvas.width, canvas.height, false);
-  const pixel = new Uint8Array(4);
-  const gl = renderer.getContext();
+  const faces = first.arrays.get(topology.faces);
+  const count = origin?.length ?? points.length / 3;
+  const drawn = stage({ faces, count, color, view: manifest.view }, canvas);
   const draw = (/** @type {Float32Array} */ array) => {
-    if (origin === null) position.array.set(array);
+    if (origin === null) drawn.array.set(array);
     else {
       for (let i = 0; i < origin.length; i++) {
-        for (let k = 0; k < 3; k++) position.array[3 * i + k] = array[3 * origin[i] + k];
+        for (let k = 0; k < 3; k++) drawn.array[3 * i + k] = array[3 * origin[i] + k];
       }
     }
-    position.needsUpdate = true;
-    geometry.computeVertexNormals();
-    renderer.render(scene, camera);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    drawn.draw();
   };
   draw(points);
   return async (wish) => {
