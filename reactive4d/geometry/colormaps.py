@@ -29,7 +29,7 @@ def colormap(cmap: Colormap) -> Any:
     """
     import matplotlib
     from matplotlib.colors import Colormap as Known
-    from matplotlib.colors import ListedColormap
+    from matplotlib.colors import ListedColormap, to_rgba_array
 
     if isinstance(cmap, Known):
         return cmap
@@ -38,7 +38,10 @@ def colormap(cmap: Colormap) -> Any:
             raise unknown(cmap, list(matplotlib.colormaps), what="colour map")
         return matplotlib.colormaps[cmap]
     try:
-        return ListedColormap(list(cmap))
+        colors = to_rgba_array(list(cmap))
+        if not len(colors) or not ((colors >= 0.0) & (colors <= 1.0)).all():
+            raise ValueError
+        return ListedColormap(colors)
     except (TypeError, ValueError):
         error = ShapeError(f"cmap: expected a colour map, got {cmap!r}")
         raise hint(error, 'its name, such as "viridis", or a list of colours') from None
@@ -59,10 +62,10 @@ def limits(arrays: Sequence[NDArray[Any]], clim: Any = None) -> tuple[float, flo
     ((1.0, 3.0), (-2.0, 2.0))
     """
     if clim is not None:
-        given: Any = (-clim, clim) if np.ndim(clim) == 0 else clim
         try:
+            given: Any = clim if np.iterable(clim) else (-clim, clim)
             low, high = [float(number) for number in given]
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             low = high = np.nan
         if not (np.isfinite(low) and np.isfinite(high) and low <= high):
             raise hint(ShapeError(f"clim: expected two numbers, the lower one first, got {clim!r}"), "clim=(0, 1)")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint, unknown
+from reactive4d.geometry.sizes import singles
 
 __all__ = ["Part", "parts_of", "weld_of"]
 
@@ -67,11 +68,7 @@ def parts_of(dataset: Any, scalars: Any = None, *, where: str = "mesh") -> dict[
         raise hint(ShapeError(f"{where}: expected a dataset of PyVista, got {dataset!r}"), "such as pv.Sphere()")
     if not data.n_points:
         raise hint(ShapeError(f"{where}: a {type(data).__name__} without points"), "there is nothing to be seen of it")
-    points = np.asarray(data.points)
-    wrong = ~np.isfinite(points).all(axis=1)
-    if wrong.any():
-        row = int(np.flatnonzero(wrong)[0])
-        raise ShapeError(f"{where}.points[{row}]: expected finite numbers, got {points[row].tolist()}")
+    singles(data.points, f"{where}.points")
     _refuse_strays(data, where)
     paint, is_by_points = _paint_of(data, scalars, where)
     bare: Any = data.copy(deep=False)
@@ -125,15 +122,25 @@ def _paint_of(data: Any, scalars: Any, where: str) -> tuple[Array | None, bool]:
         is_by_points = name in data.point_data and not (is_of_cells and name in data.cell_data)
         found = np.asarray((data.point_data if is_by_points else data.cell_data)[name])
     else:
-        name, found = "scalars", np.asarray(scalars)
+        name = "scalars"
+        try:
+            found = np.asarray(scalars)
+        except ValueError:  # rows of different lengths
+            found = np.zeros(())
+        if not found.ndim:
+            error = ShapeError(f"{where}: scalars: expected the name of an array, or numbers, got {scalars!r}")
+            raise hint(error, "scalars=False leaves it of one colour")
         if len(found) not in (data.n_points, data.n_cells):
             error = ShapeError(f"{where}: scalars: expected {data.n_points} rows, one for each point, got {len(found)}")
             raise hint(error, f"or {data.n_cells}, one for each cell")
         is_by_points = len(found) == data.n_points
-    if found.dtype.kind not in "fiub" or found.ndim > 2:
+    if found.dtype.kind not in "fiub":
         raise hint(
             ShapeError(f"{where}: the array {name!r} has no numbers but {found.dtype}"), "scalars=False leaves it"
         )
+    if found.ndim > 2 or not found[:1].size:
+        error = ShapeError(f"{where}: the array {name!r}: expected numbers or rows of them, got shape {found.shape}")
+        raise hint(error, "scalars=False leaves it")
     return _plain(found), is_by_points
 
 
@@ -145,7 +152,10 @@ def _plain(found: Array) -> Array:
         colors = np.ones((len(found), 4), np.float32)
         colors[:, : found.shape[1]] = found / np.float32(255)
         return colors
-    return found[:, 0].astype(np.float64) if found.shape[1] == 1 else np.linalg.norm(found.astype(np.float64), axis=1)
+    if found.shape[1] == 1:
+        return found[:, 0].astype(np.float64)
+    with np.errstate(over="ignore"):  # what is too long for a number has the last colour
+        return np.linalg.norm(found.astype(np.float64), axis=1)
 
 
 def _triangulated(bare: Any) -> Any:
@@ -175,9 +185,7 @@ def _triangulated(bare: Any) -> Any:
 
 
 def _cells_of(data: Any, *, is_by_points: bool) -> dict[str, Part]:
-    points = freeze(np.array(data.points, np.float32))
-    if not np.isfinite(points).all():
-        raise ShapeError("the points are too large for float32")
+    points = singles(data.points, "points")
     uv = freeze(np.array(data.point_data["uv"], np.float32)) if "uv" in data.point_data else None
     rows = data.point_data if is_by_points else data.cell_data
     paint = np.array(rows[PAINT]) if PAINT in rows else None

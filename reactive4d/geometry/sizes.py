@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
 
-__all__ = ["bearable", "count", "counts", "length", "lengths", "numbers", "rows", "scaled"]
+__all__ = ["bearable", "count", "counts", "length", "lengths", "numbers", "rows", "scaled", "singles"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -130,6 +130,28 @@ def rows(value: ArrayLike, name: str) -> Floats:
         row = int(np.flatnonzero(~good.all(axis=1))[0])
         raise ShapeError(f"{name}[{row}]: expected finite numbers, got {array[row].tolist()}")
     return array
+
+
+def singles(value: ArrayLike, name: str) -> NDArray[np.float32]:
+    """Points that were made elsewhere, (N, 3) float32, frozen.
+
+    Raises:
+        ShapeError: a number that is not finite, or too large for float32.
+
+    >>> singles([(0, 0, 1e300)], "points")
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.ShapeError: points[0]: expected numbers that float32 holds, got [0.0, 0.0, 1e+300]
+    """
+    given = np.asarray(value, np.float64).reshape(-1, 3)
+    with np.errstate(over="ignore"):
+        points = given.astype(np.float32)
+    wrong = ~np.isfinite(points).all(axis=1)
+    if wrong.any():
+        row = int(np.flatnonzero(wrong)[0])
+        wanted = "numbers that float32 holds" if np.isfinite(given[row]).all() else "finite numbers"
+        raise ShapeError(f"{name}[{row}]: expected {wanted}, got {given[row].tolist()}")
+    return freeze(points)
 
 
 def scaled(unit: Floats, factors: float | tuple[float, ...]) -> NDArray[np.float32]:

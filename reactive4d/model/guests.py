@@ -8,12 +8,15 @@ next, with other cells one takes the place of another.
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from reactive4d.errors import Reactive4dError, ShapeError, TimeError, UnknownNameError, hint, unknown
 from reactive4d.geometry.colormaps import Colormap, colormap, limits
 from reactive4d.geometry.datasets import Part, parts_of
 from reactive4d.model.kinds.aggregates import Group
 from reactive4d.model.objects import Object
 from reactive4d.model.series import Look, varying
+from reactive4d.signals.curves.controls import key_time
 
 __all__ = ["from_pyvista"]
 
@@ -60,7 +63,7 @@ def from_pyvista(
         ShapeError: it is no dataset, has nothing to draw, points that are not finite, or cells of points that are not
             there.
         UnknownNameError: there is no such array, colour map or interpolation.
-        TimeError: two datasets are there at one time.
+        TimeError: a time that is none, or two datasets at one time.
 
     >>> import pyvista as pv
     >>> import reactive4d as r4
@@ -103,10 +106,13 @@ def _series(mesh: Any, times: Any) -> tuple[list[Any], list[float]]:
             raise hint(ShapeError("times: one dataset is there at all times"), "a list of datasets has times")
         return [mesh], [0.0]
     series: list[Any] = list(mesh)  # pyright: ignore[reportUnknownArgumentType]
-    if times is None or len(times) != len(series) or not series:
-        count = "none" if times is None else len(times)
+    if all(one is None for one in series):
+        raise hint(ShapeError("mesh: a series without a dataset"), "at least one; None is nothing for a while")
+    given_times: list[Any] | None = None if times is None or not np.iterable(times) else list(times)
+    if given_times is None or len(given_times) != len(series):
+        count = repr(times) if given_times is None else len(given_times)
         raise hint(ShapeError(f"times: expected {len(series)}, one for each dataset, got {count}"), "times=(0, 1, 2)")
-    when = [float(t) for t in times]
+    when = [key_time(t) for t in given_times]
     if len(set(when)) != len(when):
         raise TimeError(f"times: two datasets are there at one time, in {when}")
     order = sorted(range(len(when)), key=when.__getitem__)

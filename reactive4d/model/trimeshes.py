@@ -9,6 +9,7 @@ from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
 from reactive4d.geometry.colormaps import colormap
 from reactive4d.geometry.datasets import Part
+from reactive4d.geometry.sizes import singles
 from reactive4d.model.kinds.aggregates import Group
 from reactive4d.model.objects import Object
 from reactive4d.model.series import Look, varying
@@ -74,7 +75,7 @@ def _group(scene: Any, look: Look, known: dict[int, Part], where: str) -> Object
     for node in scene.graph.nodes_geometry:
         matrix, name = scene.graph[node]
         geometry = scene.geometry[name]
-        if not len(geometry.vertices):
+        if not len(getattr(geometry, "vertices", (None,))):
             continue
         member = _object(geometry, look, known, f"{where}[{node!r}]")
         placed = np.asarray(matrix, np.float64)
@@ -115,8 +116,10 @@ def _path(path: Any, where: str) -> Part:
     """Curves as straight lines."""
     # `path.discrete` joins what meets, and needs networkx for it; lines need not be joined to be seen.
     runs = [np.asarray(entity.discrete(path.vertices), np.float64) for entity in path.entities]
+    if not runs:
+        raise hint(ShapeError(f"{where}: a path without entities"), "there is nothing to be seen of it")
     ends = np.cumsum([len(run) for run in runs])
-    points = np.concatenate(runs) if runs else np.zeros((0, 3))
+    points = np.concatenate(runs)
     points = np.concatenate([points, np.zeros((len(points), 3 - points.shape[1]))], axis=1)
     first = np.delete(np.arange(len(points)), ends - 1)
     cells = np.stack([first, first + 1], axis=1).astype(np.int32)
@@ -124,16 +127,9 @@ def _path(path: Any, where: str) -> Part:
 
 
 def _points(vertices: Any, where: str) -> NDArray[np.float32]:
-    given = np.asarray(vertices, np.float64).reshape(-1, 3)
-    if not len(given):
+    if not len(vertices):
         raise hint(ShapeError(f"{where}: no points"), "there is nothing to be seen of it")
-    with np.errstate(over="ignore"):
-        points = given.astype(np.float32)
-    wrong = ~np.isfinite(points).all(axis=1)
-    if wrong.any():
-        row = int(np.flatnonzero(wrong)[0])
-        raise ShapeError(f"{where}.vertices[{row}]: expected finite numbers, got {given[row].tolist()}")
-    return freeze(points)
+    return singles(vertices, f"{where}.vertices")
 
 
 def _paint(colors: Any) -> Array:

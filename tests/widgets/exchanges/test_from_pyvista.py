@@ -194,6 +194,13 @@ def test_what_is_made_is_like_any_other_object():
     assert np.ptp(box.bounds.at(0.0)[:, 0]) < 3.0
 
 
+def far() -> Any:
+    """A sphere that float32 cannot hold."""
+    data = pv.Sphere()
+    data.points = data.points.astype(float) * 1e300
+    return data
+
+
 def strays() -> Any:
     """Triangles one of which names a point that is not there."""
     data = pv.PolyData()
@@ -208,9 +215,12 @@ BAD: dict[str, tuple[Any, str]] = {
     "an array": (lambda: np.eye(3), "expected a dataset of PyVista"),
     "nothing": (lambda: pv.PolyData(), "without points"),
     "a point at infinity": (lambda: pv.PolyData([(0, 0, 0), (0, np.inf, 0)]), r"points\[1\]: expected finite numbers"),
+    "a point far away": (far, r"mesh.points\[0\]: expected numbers that float32 holds, got"),
     "a point too many": (strays, "names the point 2, and there are 2"),
     "empty blocks": (lambda: pv.MultiBlock([None, pv.PolyData()]), "no block has anything to draw"),
     "a list without times": (lambda: [pv.Sphere()], "times: expected 1"),
+    "a series of nothing": (lambda: {0: None, 1: None}, "mesh: a series without a dataset"),
+    "no series": (list, "mesh: a series without a dataset"),
     "blocks and one": (lambda: {0: pv.Sphere(), 1: pv.MultiBlock([pv.Sphere()])}, "several blocks, others of one"),
 }
 
@@ -238,8 +248,44 @@ def test_what_is_not_there_is_refused_by_name():
         r4.from_pyvista([ball, ball], times=(1, 1))
     with pytest.raises(r4.ShapeError, match="clim"):
         r4.from_pyvista(ball, clim=(2, 1))
+    with pytest.raises(r4.ShapeError, match="times: expected 1, one for each dataset, got 5"):
+        r4.from_pyvista([ball], times=5)  # pyright: ignore[reportArgumentType]
+    for time in ("0", np.nan, np.inf, [0]):
+        with pytest.raises(r4.TimeError, match=r"time of a key in seconds|a key cannot stand at"):
+            r4.from_pyvista([ball], times=[time])  # pyright: ignore[reportArgumentType]
     with pytest.raises(r4.Reactive4dError, match="not supported"):
         r4.from_pyvista(ball, texture=pv.numpy_to_texture(np.zeros((2, 2, 3), np.uint8)))  # pyright: ignore
+
+
+@pytest.mark.parametrize("cmap", [["red", "no colour"], [], [(0, 0, 255)], [(0, np.nan, 0)], 5])
+def test_colours_that_are_none_are_no_map(cmap: Any):
+    """When it is made, not when it is first drawn."""
+    with pytest.raises(r4.ShapeError, match="cmap: expected a colour map, got"):
+        r4.from_pyvista(pv.Sphere(), scalars=False, cmap=cmap)
+
+
+@pytest.mark.parametrize("clim", ["ab", [[1, 2], [3]], 10**400, (0, 10**400), np.nan, (0, np.inf), 1j, {}])
+def test_limits_that_are_none_are_refused(clim: Any):
+    """Whatever they are instead of two numbers."""
+    with pytest.raises(r4.ShapeError, match="clim: expected two numbers"):
+        r4.from_pyvista(pv.Sphere(), clim=clim)
+
+
+@pytest.mark.parametrize(
+    "scalars", [5, True, object(), [[1, 2], [3]], np.zeros((842, 0)), np.zeros((842, 2, 2))], ids=lambda one: type(one)
+)
+def test_scalars_without_a_number_for_each_point_are_refused(scalars: Any):
+    """Nothing but a name, or rows of numbers."""
+    with pytest.raises(r4.ShapeError, match=r"scalars.*: expected"):
+        r4.from_pyvista(pv.Sphere(), scalars=scalars)
+
+
+def test_vectors_that_are_too_long_for_a_number_have_the_last_colour():
+    """Without a warning."""
+    data = pv.Plane(i_resolution=1, j_resolution=1)
+    data["wind"] = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (1e300, 1e300, 0)]
+    found = colors(r4.from_pyvista(data, scalars="wind"))
+    assert np.allclose(found, colormaps["viridis"]([0.0, 0.5, 1.0, 1.0]), atol=0.01)
 
 
 coordinates = st.floats(-100, 100, width=32)

@@ -1,5 +1,6 @@
 """What trimesh has becomes objects."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -73,6 +74,14 @@ def test_clouds_and_paths_become_points_and_lines():
     assert r4.from_trimesh(trimesh.path.creation.circle(radius=2.0)).bounds.at(0.0)[:, 2].tolist() == [0, 0]
 
 
+def odd() -> Any:
+    """A scene with what has no points at all."""
+    scene: Any = trimesh.Scene()
+    scene.geometry["odd"] = SimpleNamespace()
+    scene.graph.update("odd", geometry="odd")
+    return scene
+
+
 BAD = {
     "no geometry": ("box.stl", "expected a geometry of trimesh"),
     "no faces": (trimesh.Trimesh(), "no points"),
@@ -82,6 +91,12 @@ BAD = {
     ),
     "a point too many": (trimesh.Trimesh(np.eye(3), [(0, 1, 3)], process=False), "names the point 3"),
     "an empty scene": (trimesh.Scene(), "nothing to draw"),
+    "a point far away": (
+        trimesh.Trimesh(np.eye(3) * 1e300, [(0, 1, 2)], process=False),
+        r"geometry.vertices\[0\]: expected numbers that float32 holds",
+    ),
+    "a path without an entity": (trimesh.path.Path3D(vertices=np.eye(3), process=False), "a path without entities"),
+    "a scene with what is no mesh": (odd(), r"geometry\['odd'\]: expected a geometry of trimesh"),
 }
 
 

@@ -132,6 +132,14 @@ def test_one_model_is_shared_by_all_who_look_at_a_scene(viewer: Viewer) -> None:
     assert (other.manifest["title"], viewer.manifest["title"]) == ("Another", "Pendulum")
 
 
+def test_times_given_as_an_array_are_shared_too(viewer: Viewer) -> None:
+    """As often as they are given; other times are another model."""
+    thing = viewer.reader.thing
+    first = Model.of(thing, times=np.linspace(0, 2, 21))
+    assert Model.of(thing, times=np.linspace(0, 2, 21)) is Model.of(thing, times=np.linspace(0, 2, 21))
+    assert Model.of(thing, times=np.linspace(0, 2, 11)) is not first
+
+
 class Reaching(r4.Illustration):
     """A ball that stands at the end of an arm."""
 

@@ -26,14 +26,14 @@ from reactive4d_widgets.live.witnesses import settled
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.sights import text_of
-from reactive4d_widgets.spans import span_of
+from reactive4d_widgets.spans import Span, span_of
 
 __all__ = ["Model"]
 
 INF = math.inf
 PATIENCE = 4  # rounds after which edits wait for an answer
 
-_models: "WeakValueDictionary[int, Model]" = WeakValueDictionary()
+_models: "WeakValueDictionary[tuple[int, Span | None], Model]" = WeakValueDictionary()
 _making = threading.Lock()
 
 
@@ -74,13 +74,12 @@ class Model:
     def of(cls, thing: Any, *, times: Any = None) -> "Model":
         """The model of whatever can be shown: one for each scene and span."""
         shown = subject(thing)
+        key = id(shown.scene), None if times is None else span_of(times, shown.times)
         with _making:
-            known = _models.get(id(shown.scene))
-            if known is not None and known.subject.scene is shown.scene and known.times == times:
+            known = _models.get(key)
+            if known is not None and known.subject.scene is shown.scene:
                 return known
-            made = cls(thing, times=times)
-            if known is None:
-                _models[id(shown.scene)] = made
+            made = _models[key] = cls(thing, times=times)
             return made
 
     # -- what there is -----------------------------------------------------------------------------------------------
