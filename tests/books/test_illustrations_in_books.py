@@ -36,6 +36,19 @@ def test_a_figure_stands_in_the_page_with_its_caption_its_number_and_its_picture
     assert 'href="#pole"' in html
 
 
+def test_words_for_a_live_figure_wait_behind_those_of_the_page(book: Book):
+    """In HTML both are there and the page's stand; elsewhere only these are. Either may be missing."""
+    text = f"{POLE}\nOn {{live}}`here <paper>`. {{live}}`Ask & see.` {{live}}`<Still.>`\n"
+    assert book.build(text, strict=True).ok
+    html = book.html()
+    assert '<r4d-either figure="pole" live="here">paper</r4d-either>' in html
+    assert '<r4d-either figure="pole" live="Ask &amp; see."></r4d-either>' in html
+    assert '<r4d-either figure="pole" live="">Still.</r4d-either>' in html
+    build = book.build(builder="latex", strict=True)
+    [source] = build.site.glob("*.tex")
+    assert re.search(r"On paper\.\s+Still\.", source.read_text(encoding="utf-8"))
+
+
 def test_a_site_carries_one_viewer_and_asks_for_nothing_elsewhere(book: Book):
     """One classic script for the whole site; formulas are MathML."""
     build = book.build(f"{POLE}\nIt is $h^2$ high.\n\n$$ h = 1 $$\n", strict=True)
@@ -180,6 +193,7 @@ MISTAKES = [
     ("```{illustration} poles:Pole\n```\n\n{jump}`up <width=2>`", 6, "unknown parameter 'width'"),
     ("```{illustration} poles:Pole\n```\n\n{jump}`up <paint=crimson>`", 6, "the page holds no paint = crimson"),
     ("```{illustration} poles:Pole\n```\n\n{jump}`up`", 6, "is no point"),
+    ("{live}`here`", 3, "the page has no figure"),
     ("{number}`height`", 3, "unknown parameter 'height'"),
 ]
 

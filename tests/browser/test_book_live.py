@@ -131,6 +131,27 @@ def test_where_the_model_does_not_answer_a_figure_has_what_its_page_holds(folder
     assert window.evaluate(STATE) == "baked"
 
 
+WORDS = """() => [...document.querySelectorAll("r4d-either")].map((one) => {
+  const said = one.shadowRoot?.querySelector("span, slot");
+  return said ? said.textContent || one.textContent : one.textContent;
+})"""
+
+
+def test_words_say_whether_the_model_answers(folder: Path, address: str, window: Any):
+    """The same page, asked and not asked."""
+    chapter = folder / "chapters" / "01_pendulum.md"
+    said = "\nTimed on {live}`your machine <the machine of the author>`.\n"
+    chapter.write_text(chapter.read_text(encoding="utf-8") + said, encoding="utf-8")
+    window.goto(f"{address}chapters/01_pendulum.html")
+    window.wait_for_function("() => document.querySelector('r4d-either')")
+    window.wait_for_function(ALIVE)
+    assert window.evaluate(WORDS) == ["your machine"]
+    window.route_web_socket(re.compile("/live/"), lambda line: line.close())
+    window.reload()
+    window.wait_for_function(ALIVE)
+    assert window.evaluate(WORDS) == ["the machine of the author"]
+
+
 def test_a_book_is_printed(folder: Path, tmp_path: Path, browser: Any):
     """All its pages, with the pictures of their figures."""
     path = printed(folder, tmp_path / "waves.pdf")

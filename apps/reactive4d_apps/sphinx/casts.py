@@ -117,6 +117,20 @@ class Company:
                 return self.casts[candidate], name
         raise unknown(name, [one for cast in self.casts.values() for one in _known(cast, kind)], what=what)
 
+    def nearest(self, text: str) -> Cast:
+        """The last figure before this place, else the first of the page.
+
+        Args:
+            text: what is said of it, for the message.
+
+        Raises:
+            ShapeError: the page has none.
+        """
+        name = next(iter([*reversed(self.passed), *self.casts]), None)
+        if name is None:
+            raise hint(ShapeError(f"{text!r}: the page has no figure"), "what is said of a figure needs one on its page")
+        return self.casts[name]
+
     def point(self, text: str) -> tuple[Cast, str]:
         """The figure of a link, and the point without its name.
 
@@ -143,12 +157,7 @@ class Company:
         if owner is None and wanted:
             owner, _ = self.owner(wanted[0], "jump")
         elif owner is None:
-            names = [*reversed(self.passed), *self.casts]
-            owner = self.casts[names[0]] if names else None
-        if owner is None:
-            raise hint(
-                ShapeError(f"{text!r}: the page has no figure"), "a link goes to a point of a figure of its page"
-            )
+            owner = self.nearest(text)
         for name in wanted:
             if name not in owner.parameters:
                 raise unknown(name, owner.parameters, what="parameter")

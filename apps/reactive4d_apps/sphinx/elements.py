@@ -6,7 +6,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.util.osutil import relative_uri
 
-__all__ = ["Check", "Fold", "Illustration", "Link", "Number", "Script", "Word", "add_elements"]
+__all__ = ["Check", "Either", "Fold", "Illustration", "Link", "Number", "Script", "Word", "add_elements"]
 
 
 class Illustration(nodes.General, nodes.Element):
@@ -23,6 +23,10 @@ class Link(nodes.Inline, nodes.TextElement):
 
 class Word(nodes.Inline, nodes.TextElement):
     """About an object of a figure."""
+
+
+class Either(nodes.Inline, nodes.TextElement):
+    """Words for a page whose figure asks its model; its text stands wherever there is only what was baked."""
 
 
 class Check(nodes.General, nodes.TextElement):
@@ -88,6 +92,12 @@ def _visit_word(translator: Any, node: nodes.Element) -> None:
     translator.body.append(_open("r4d-word", {"figure": node["figure"], "node": node["node"]}))
 
 
+def _visit_either(translator: Any, node: nodes.Element) -> None:
+    # Said even if there are none: then nothing stands where the figure is live.
+    attributes = f'{_open("r4d-either", {"figure": node["figure"]})[:-1]} live="{escape(node["live"])}">'
+    translator.body.append(attributes)
+
+
 def _visit_check(translator: Any, node: nodes.Element) -> None:
     translator.body.append(_open("r4d-check", {"figure": node["figure"], "name": node["name"], "class": "r4d-check"}))
 
@@ -126,6 +136,7 @@ def add_elements(app: Any) -> None:
         Number: (_visit_number, _leaving("r4d-number")),
         Link: (_visit_link, _leaving("r4d-link")),
         Word: (_visit_word, _leaving("r4d-word")),
+        Either: (_visit_either, _leaving("r4d-either")),
         Script: (_visit_script, _depart_script),
         Fold: (_visit_fold, _leaving("details")),
     }

@@ -15,7 +15,7 @@ from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
 from reactive4d.illustrations import Bookmark, subject
 from reactive4d_apps.sphinx.bakings import SIZE, Baking, Pantry, Still, Wish, opening
 from reactive4d_apps.sphinx.casts import Cast, Company
-from reactive4d_apps.sphinx.elements import Check, Fold, Illustration, Link, Number, Script, Word
+from reactive4d_apps.sphinx.elements import Check, Either, Fold, Illustration, Link, Number, Script, Word
 from reactive4d_apps.sphinx.programs import Coded, Placed, Program, kept, script_of
 from reactive4d_apps.sphinx.sources import digest_of
 from reactive4d_apps.sphinx.wordings import named, times_of
@@ -72,7 +72,7 @@ class Readings(SphinxTransform):
             if isinstance(node, Illustration):
                 if node.get("name") in self.company.casts:
                     self.company.passed.append(node["name"])
-            elif isinstance(node, Number | Link | Word | Check):
+            elif isinstance(node, Number | Link | Word | Check | Either):
                 self._resolve(node)
 
     def _warn(self, words: str, where: Any) -> None:
@@ -264,6 +264,8 @@ class Readings(SphinxTransform):
             elif isinstance(node, Check):
                 cast, name = self.company.owner(node["check"], "value")
                 node["figure"], node["name"] = cast.name, name
+            elif isinstance(node, Either):
+                node["figure"] = self.company.nearest("{live}").name
             else:
                 cast, point = self.company.point(node["wish"])
                 node["figure"], node["point"] = cast.name, point

@@ -1,4 +1,4 @@
-"""Roles: `number`, `value`, `jump` and `word`, as authors write them in a sentence."""
+"""Roles: `number`, `value`, `jump`, `word` and `live`, as authors write them in a sentence."""
 
 import re
 from typing import Any
@@ -6,11 +6,13 @@ from typing import Any
 from docutils import nodes
 from sphinx.util.docutils import SphinxRole
 
-from reactive4d_apps.sphinx.elements import Link, Number, Word
+from reactive4d_apps.sphinx.elements import Either, Link, Number, Word
 
 __all__ = ["ROLES"]
 
 _TITLED = re.compile(r"(?s)(.+?)\s*<([^<>]+)>\s*")
+
+_EITHER = re.compile(r"(?s)\s*([^<>]*?)\s*(?:<([^<>]+)>)?\s*")
 
 
 class NumberRole(SphinxRole):
@@ -52,4 +54,22 @@ class WordRole(SphinxRole):
         return [node], []
 
 
-ROLES = {"number": NumberRole("number"), "value": NumberRole("value"), "jump": JumpRole(), "word": WordRole()}
+class LiveRole(SphinxRole):
+    """What is said where the figure asks its model, and what elsewhere: `your machine <the machine of the author>`."""
+
+    def run(self) -> tuple[list[nodes.Node], list[Any]]:
+        """The words for elsewhere, and those for there; either may be missing."""
+        found = _EITHER.fullmatch(self.text)
+        live, baked = (found[1], found[2] or "") if found else (self.text, "")
+        node = Either(self.rawtext, baked, live=live)
+        self.set_source_info(node)
+        return [node], []
+
+
+ROLES = {
+    "number": NumberRole("number"),
+    "value": NumberRole("value"),
+    "jump": JumpRole(),
+    "word": WordRole(),
+    "live": LiveRole(),
+}

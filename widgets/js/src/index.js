@@ -26,6 +26,7 @@ export { View } from "./render/views.js";
 // the figure, what drives it from the prose, and a page that holds them
 export { FigureElement } from "./ui/figure-element.js";
 export { CheckElement } from "./inline/check.js";
+export { EitherElement } from "./inline/either.js";
 export { LinkElement } from "./inline/link.js";
 export { NumberElement } from "./inline/number.js";
 export { WordElement } from "./inline/word.js";

@@ -3,6 +3,7 @@
 import { baked } from "../transports/baked.js";
 import { FigureElement } from "../ui/figure-element.js";
 import { CheckElement } from "../inline/check.js";
+import { EitherElement } from "../inline/either.js";
 import { LinkElement } from "../inline/link.js";
 import { NumberElement } from "../inline/number.js";
 import { WordElement } from "../inline/word.js";
@@ -11,6 +12,7 @@ import { Addresses } from "./addresses.js";
 const ELEMENTS = /** @type {const} */ ([
   ["r4d-figure", FigureElement],
   ["r4d-check", CheckElement],
+  ["r4d-either", EitherElement],
   ["r4d-number", NumberElement],
   ["r4d-link", LinkElement],
   ["r4d-word", WordElement],
