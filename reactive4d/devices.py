@@ -6,15 +6,18 @@ scene does not notice.
 """
 
 from collections.abc import Callable
+from functools import wraps
 from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeAlias
+from types import MethodType
+from typing import Any, TypeAlias, TypeVar, cast
 
 from reactive4d.errors import Reactive4dError, hint, unknown
 
 __all__ = ["Device", "Showable", "device", "exchange", "names"]
 
 Device: TypeAlias = Callable[..., Any]
+F = TypeVar("F", bound=Callable[..., Any])
 
 _devices: dict[str, Device | str] = {
     "bake": "reactive4d_widgets.baking:bake",  # one page that needs no server
@@ -93,6 +96,32 @@ def exchange(name: str, other: Device | str) -> Device | str:
     return before
 
 
+class _Way:
+    """A method that says what to do where somebody calls it on the class."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._function = function
+        self.__doc__ = function.__doc__
+
+    def __get__(self, one: Any, owner: type[Any]) -> Callable[..., Any]:
+        if one is not None:
+            return MethodType(self._function, one)
+        name = self._function.__name__
+
+        @wraps(self._function)
+        def called(*given: Any, **options: Any) -> Any:
+            if given and isinstance(given[0], owner):
+                return self._function(*given, **options)
+            error = Reactive4dError(f"{owner.__name__}.{name}: called on the class, and it is for what is made of it")
+            raise hint(error, f"with brackets: {owner.__name__}().{name}(…)")
+
+        return called
+
+
+def _way(function: F) -> F:
+    return cast("F", _Way(function))
+
+
 class Showable:
     """Whatever can be put before a reader: each way is a device.
 
@@ -112,10 +141,12 @@ class Showable:
         """What marimo shows where a cell ends with it."""
         return self.show()
 
+    @_way
     def show(self, **options: Any) -> Any:
         """Put it before a reader: in a window, or in a cell of a notebook."""
         return device("show")(self, **options)
 
+    @_way
     def bake(self, path: str | Path, **options: Any) -> Any:
         """Write one page that needs no server: figure, player, controls.
 
@@ -125,6 +156,7 @@ class Showable:
         """
         return device("bake")(self, path, **options)
 
+    @_way
     def render(self, path: str | Path, **options: Any) -> Any:
         """Write what a reader sees: a still picture, a film, or a model of one instant.
 
@@ -135,6 +167,7 @@ class Showable:
         """
         return device("render")(self, path, **options)
 
+    @_way
     def serve(self, *, port: int = 0, host: str = "127.0.0.1", **options: Any) -> Any:
         """Serve a page to many readers, each of whom is at a point of their own; it needs `reactive4d[trame]`.
 
@@ -146,6 +179,7 @@ class Showable:
         """
         return device("serve")(self, port=port, host=host, **options)
 
+    @_way
     def to_pyvista(self, t: float | None = None, **options: Any) -> Any:
         """What is drawn at one instant, as a `MultiBlock` of PyVista.
 

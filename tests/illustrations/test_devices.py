@@ -54,6 +54,17 @@ def test_scenes_and_illustrations_hand_themselves_to_devices(make: Any, calls: l
     ]
 
 
+@pytest.mark.parametrize("way", ["show", "bake", "render", "serve", "to_pyvista"])
+@pytest.mark.parametrize("of", [Ball, r4.Scene])
+def test_a_class_says_that_it_has_to_be_called_first(of: Any, way: str, calls: list[Any]):
+    """What is put before a reader is made of it; the method itself is called on that, with or without a dot."""
+    with pytest.raises(r4.Reactive4dError, match=f"{of.__name__}.{way}: called on the class") as caught:
+        getattr(of, way)("page.html", t=1.0)
+    assert caught.value.__notes__ == [f"hint: with brackets: {of.__name__}().{way}(…)"]
+    assert calls == []
+    assert getattr(of, way)(*[of()], *(["x"] if way in ("bake", "render") else [])) == way
+
+
 def test_a_device_is_imported_when_it_is_wanted():
     """The core imports no widget; a name says where a device lies."""
     assert devices.exchange("twice", "math:gcd") == "math:gcd"
