@@ -56,6 +56,12 @@ def ledger(*, is_shared: bool) -> list[tuple[int, float]]:
     return found
 
 
+def best(*, is_shared: bool) -> list[tuple[int, float]]:
+    """The ledger with the shortest times of three: a machine has other things to do, too, and never does less."""
+    ledgers = [ledger(is_shared=is_shared) for _ in range(3)]
+    return [(column[0][0], min(ms for _, ms in column)) for column in zip(*ledgers, strict=True)]
+
+
 class Tyres(r4.Illustration):
     """A car on four tyres, and below a ledger: how much was computed for each picture of it."""
 
@@ -74,7 +80,7 @@ class Tyres(r4.Illustration):
         body.translate((0, 0, -0.85))
         body.rotate(90, axis="x")
 
-        ledgers = {"shared": ledger(is_shared=True), "own": ledger(is_shared=False)}
+        ledgers = {"shared": best(is_shared=True), "own": best(is_shared=False)}
         for name, counts in ledgers.items():
             for k, (count, _) in enumerate(counts):
                 bar = parts[f"{name}{k}"] = r4.Box((0.26, 0.3, 1), color=BARS[name])

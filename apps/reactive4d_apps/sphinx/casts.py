@@ -128,7 +128,7 @@ class Company:
         """
         name = next(iter([*reversed(self.passed), *self.casts]), None)
         if name is None:
-            raise hint(ShapeError(f"{text!r}: the page has no figure"), "what is said of a figure needs one on its page")
+            raise hint(ShapeError(f"{text!r}: the page has no figure"), "write it on a page with one")
         return self.casts[name]
 
     def point(self, text: str) -> tuple[Cast, str]:
