@@ -4,6 +4,7 @@ import importlib.util
 import itertools
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
+from io import BytesIO
 from pathlib import Path
 from typing import IO, Any, Final, TypeAlias
 
@@ -90,10 +91,37 @@ def webp(file: IO[bytes], pictures: Iterator[Any], few: Few, *, count: int, rate
     """In all colours, and small."""
     strip = _Strip((Image.fromarray(picture) for picture in pictures), count)
     durations = _durations(count, 1000.0 / rate)
-    strip.save(file, "WEBP", save_all=True, duration=durations, loop=int(not loop), quality=QUALITY, method=4)
+    made = BytesIO()
+    strip.save(made, "WEBP", save_all=True, duration=durations, loop=int(not loop), quality=QUALITY, method=4)
+    found = made.getvalue()
+    # Of pictures that are all the same Pillow makes a still, which lasts no time.
+    file.write(found if found[12:16] == b"VP8X" else _lasting(found[12:], strip.size, sum(durations), loop=loop))
 
 
 ENCODERS: Final[Mapping[str, Encoder]] = {".mp4": mp4, ".gif": gif, ".webp": webp}
+
+
+def _lasting(picture: bytes, size: tuple[int, int], duration: int, *, loop: bool) -> bytes:
+    """A WebP of one picture that is shown for so many milliseconds (RFC 9649, section 2.7).
+
+    Args:
+        picture: the chunk that has its pixels.
+        size: of the picture.
+        duration: milliseconds.
+        loop: whether it begins again.
+    """
+
+    def number(value: int) -> bytes:
+        return min(value, 2**24 - 1).to_bytes(3, "little")
+
+    def chunk(name: bytes, content: bytes) -> bytes:
+        return name + len(content).to_bytes(4, "little") + content + b"\0" * (len(content) % 2)
+
+    sides = number(size[0] - 1) + number(size[1] - 1)
+    whole = chunk(b"VP8X", bytes([0b10, 0, 0, 0]) + sides)  # the bit says that it is animated
+    whole += chunk(b"ANIM", bytes(4) + (0 if loop else 1).to_bytes(2, "little"))
+    whole += chunk(b"ANMF", bytes(6) + sides + number(duration) + bytes(1) + picture)
+    return chunk(b"RIFF", b"WEBP" + whole)
 
 
 def _durations(count: int, each: float) -> list[int]:

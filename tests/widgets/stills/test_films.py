@@ -97,6 +97,23 @@ def test_durations_add_up_where_a_format_counts_in_hundredths(tmp_path: Path):
     assert seconds(tmp_path / "film.gif") == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("end", ENDS)
+@pytest.mark.parametrize("loop", [True, False])
+def test_a_film_of_what_rests_lasts_as_long(end: str, loop: bool, tmp_path: Path):
+    """Encoders make one picture of many that are alike; it is shown for as long as they would be."""
+    if end == "mp4":
+        pytest.importorskip("av")
+    path = tmp_path / f"film.{end}"
+    film(r4.Scene(box=r4.Box()), path, times=(0, 3), rate=5, size=(161 - (end == "mp4"), 120), loop=loop)
+    assert seconds(path) == pytest.approx(3.0)
+    render(r4.Scene(box=r4.Box()), tmp_path / "still.png", size=(161 - (end == "mp4"), 120))
+    still = np.asarray(Image.open(tmp_path / "still.png").convert("RGB")).astype(int)
+    assert np.abs(pictures(path)[0] - still).mean() < 2.0
+    if end != "mp4":
+        with Image.open(path) as image:
+            assert image.info.get("loop") in ({0} if loop else {1, None})
+
+
 @pytest.mark.parametrize("end", ["gif", "webp"])
 def test_moving_pictures_begin_again_unless_told_otherwise(end: str, tmp_path: Path):
     """0 is for ever; without a word a GIF is played once."""
