@@ -9,6 +9,7 @@ import reactive4d as r4
 from reactive4d_apps.gallery import (
     changes,
     deformations,
+    frames,
     kinds,
     landscapes,
     pendulums,
@@ -242,6 +243,23 @@ def test_four_tyres_of_one_prototype_are_made_once():
     frame = tyres.Tyres().at(6.5)
     assert len({frame[f"tyre{i}"].versions["points"] for i in range(4)}) == 1
     assert [frame[f"own{k}"].visible for k in (5, 6, 7)] == [True, True, False]
+
+
+def test_the_strip_shows_how_long_answers_hold():
+    """The cylinder's points: one for each picture until 20, then one for all; the box grows by its matrix alone."""
+    cylinder, box, _ = frames.cast()
+    each = [(k, k + 1) for k in range(30)]
+    assert frames.answers(cylinder.points) == [*each[:20], (20, 37)]
+    assert frames.answers(box.matrix) == [*each, (30, 37)]
+    assert frames.answers(box.points) == [(0, 37)]
+    assert cylinder.points.valid(5.0) == r4.Interval(4.0, np.inf)
+    scene = frames.Frames().scene
+    assert scene.signals["height"].at(3.0) == pytest.approx(0.8 * 1.75)  # half way, at picture 15
+    orange, blue = (r4.color(name) for name in (frames.ANEW, frames.HELD))
+    for name, stop in (("cylinder", 4.0), ("box", 6.0)):
+        shown = [scene[name].color.at(t) for t in (stop - 0.1, stop)]
+        assert np.allclose(shown[0], orange)
+        assert np.allclose(shown[1], blue)
 
 
 def test_the_ball_lies_on_the_sheet_that_was_swept():
