@@ -280,9 +280,14 @@ class Engine:
             log.notes.append(note)
 
     @contextmanager
-    def log(self) -> Generator[Log]:
-        """The events of the block, as a sequence that grows while it runs. Only meanwhile are hits counted."""
-        log = Log()
+    def log(self, cells: "Iterable[Cell] | None" = None) -> Generator[Log]:
+        """The events of the block, as a sequence that grows while it runs. Only meanwhile are hits counted.
+
+        Args:
+            cells: of these alone, and of what this thread does, which must not be evaluating anything; of all cells
+                and threads if left out.
+        """
+        log = Log(cells)
         with LOCK:
             self._listen([*self.logs, log])
             hits.attended += 1
@@ -298,10 +303,12 @@ class Engine:
     def _listen(self, logs: list[Log]) -> None:
         for log in self.logs[:1]:
             log.count_hits()  # the one that was opened first counts for all
+        logs.sort(key=lambda log: log.is_narrow)  # but one that tells of all does before one that does not
+        if [log for log in logs if not log.is_narrow] != [log for log in self.logs if not log.is_narrow]:
+            self.epoch += 1  # so that whoever runs a function meanwhile looks up
         if logs and logs[:1] != self.logs[:1]:
             logs[0].counted = len(logs[0].notes)
         self.logs = logs
-        self.epoch += 1  # so that whoever runs a function meanwhile looks up
         self.hear = logs[0].notes.append if len(logs) == 1 else self._tell_all
 
     def explain(self, cell: "Cell", t: float, /, **parameters: Any) -> str:

@@ -1,6 +1,7 @@
 """What the engine did, in the order in which it did it, for tests to read and viewers to draw."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from threading import get_ident
 from typing import TYPE_CHECKING, NamedTuple, overload
 
 if TYPE_CHECKING:
@@ -33,17 +34,38 @@ class Event(NamedTuple):
 Note = tuple[str, "Cell", float, float]
 
 
+class Sieve(list[Note]):
+    """The notes of some cells, made by the thread that made the sieve."""
+
+    def __init__(self, cells: "Iterable[Cell]") -> None:
+        self.cells = frozenset(cells)
+        self.thread = get_ident()
+
+    def append(self, note: Note, /) -> None:
+        """Keep a note, or let it pass."""
+        if note[1] in self.cells and get_ident() == self.thread:
+            super().append(note)
+
+
 class Log(Sequence[Event]):
     """The events since the log was opened, as a sequence that grows while it is open.
 
     It keeps the cells that it tells of, so close it and let it go.
+
+    Args:
+        cells: tell of these alone, and of what the thread does that opens it; of all cells and threads if left out.
     """
 
     __slots__ = ("counted", "notes")
 
-    def __init__(self) -> None:
-        self.notes: list[Note] = []
+    def __init__(self, cells: "Iterable[Cell] | None" = None) -> None:
+        self.notes: list[Note] = [] if cells is None else Sieve(cells)
         self.counted = 0
+
+    @property
+    def is_narrow(self) -> bool:
+        """Whether it tells of some cells alone."""
+        return type(self.notes) is Sieve
 
     def clear(self) -> None:
         """Forget the events so far."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
     from reactive4d.engine.engines import Engine
 
-__all__ = ["explain"]
+__all__ = ["explain", "is_in_check"]
 
 MOST_LINES = 200
 
@@ -61,6 +61,12 @@ def _standing(cell: "Cell", t: float, point: Any) -> str:
     if not remembered:
         return "nothing was remembered here"
     return "" if any(segment.clean for segment in remembered) else "what it read was edited"
+
+
+def is_in_check(cell: "Cell", t: float, point: Any) -> bool:
+    """Whether something below was edited since a cell was asked at a point, and nobody has looked; the lock is held."""
+    remembered = _remembered(cell, t, point)
+    return bool(remembered) and not any(segment.clean for segment in remembered)
 
 
 def _remembered(cell: "Cell", t: float, point: Any) -> list[Segment]:

@@ -1,6 +1,6 @@
 """The dependency graph, as data, as text and as DOT."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ from reactive4d.engine.segments import ELSEWHERE
 if TYPE_CHECKING:
     from reactive4d.engine.cells import Cell
 
-__all__ = ["Graph", "graph"]
+__all__ = ["Graph", "between", "graph"]
 
 KINDS = {0: "source", 1: "parameter", 2: "formula", 3: "computed"}
 
@@ -69,10 +69,33 @@ def graph(cells: "Iterable[Cell]") -> Graph:
     number = {cell: i for i, cell in enumerate(found)}
     links: dict[tuple[int, int], None] = {}
     for cell in found:
-        entries: list[Any] = list(cell.inputs)
-        for table in tables(cell):
-            for segment in table.segments:
-                entries.extend(segment.reads)
-        for entry in entries:
-            links[number[cell], number[entry[0] if type(entry) is ELSEWHERE else entry]] = None
+        for below in _reads(cell):
+            links[number[cell], number[below]] = None
     return Graph({i: (cell.name, KINDS[cell.kind], _state(cell)) for cell, i in number.items()}, tuple(links))
+
+
+def between(cells: "Sequence[Cell]") -> tuple[tuple[int, int], ...]:
+    """Who of some cells reads whom, directly or through others that are none of them: (reader, what it reads)."""
+    number = {cell: i for i, cell in enumerate(cells)}
+    links: dict[tuple[int, int], None] = {}
+    for cell, i in number.items():
+        seen: set[Cell] = set()
+        todo = list(_reads(cell))
+        while todo:
+            below = todo.pop()
+            if below in number:
+                links[i, number[below]] = None
+            elif below not in seen:
+                seen.add(below)
+                todo.extend(_reads(below))
+    return tuple(sorted(links))
+
+
+def _reads(cell: "Cell") -> "Iterator[Cell]":
+    """What a cell declares, or is remembered to have read."""
+    entries: list[Any] = list(cell.inputs)
+    for table in tables(cell):
+        for segment in table.segments:
+            entries.extend(segment.reads)
+    for entry in entries:
+        yield entry[0] if type(entry) is ELSEWHERE else entry

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NoReturn, Self
 
 import numpy as np
@@ -10,6 +11,7 @@ from reactive4d.devices import Showable
 from reactive4d.engine import Source, engine
 from reactive4d.errors import Reactive4dError, ShapeError, TimeError, hint, unknown
 from reactive4d.model.bundles import Bundle, Gathered, Root
+from reactive4d.model.cells import as_cells
 from reactive4d.model.formats import format_of
 from reactive4d.model.frames import Frame
 from reactive4d.model.handles import Handle, handle
@@ -55,6 +57,7 @@ class Scene(Showable, MutableMapping[str, Object]):
         self.remembered: Any = None  # how the script read that it was read from, for who writes it
         self._times: tuple[float, float] | None = None
         self._handles: tuple[Handle, ...] = ()
+        self._cells: Mapping[str, Signal[Any]] = MappingProxyType({})
         self._fixed_by = ""  # who made it for others: then what it holds stays
         self._bundles: dict[tuple[Any, ...], Gathered] = {}
         self._root: Function[Root] = Function(self._rooted, name="scene.root")
@@ -250,6 +253,31 @@ class Scene(Showable, MutableMapping[str, Object]):
     def handles(self) -> tuple[Handle, ...]:
         """What readers can take hold of, in the order in which it was said."""
         return self._handles
+
+    @property
+    def cells(self) -> Mapping[str, Signal[Any]]:
+        """Signals that a viewer draws as boxes beside the picture, by the words on the boxes.
+
+        Arrows lead to who asks, through whatever lies between and is named by no box. A box tells what the engine did
+        with its signal for the picture on show. They are set together: signals, or objects, which stand for all that a
+        viewer needs of them; `scene.frame` is the picture.
+
+        Raises:
+            ShapeError: set to what is no mapping of signals and objects, or to more than forty.
+
+        >>> import reactive4d as r4
+        >>> ball = r4.Sphere()
+        >>> _ = ball.translate(r4.vec(0, 0, r4.time))
+        >>> scene = r4.Scene(ball=ball)
+        >>> scene.cells = {"ball's place": ball.position, "ball": ball, "picture": scene.frame}
+        >>> list(scene.cells)
+        ["ball's place", 'ball', 'picture']
+        """
+        return self._cells
+
+    @cells.setter
+    def cells(self, value: Mapping[str, Signal[Any] | Object]) -> None:
+        self._cells = as_cells(value)
 
     def _rooted(self) -> Root:
         """The nodes of all objects, in bundles of bundles; what the last ones had in common with these is kept."""
