@@ -4,6 +4,7 @@ import json
 import re
 
 import pytest
+from PIL import Image
 from writers import Book
 
 from reactive4d_apps.books.builds import Build
@@ -26,10 +27,14 @@ def test_a_figure_stands_in_the_page_with_its_caption_its_number_and_its_picture
     assert (build.figures, build.complaints) == (1, ())
     html = book.html()
     assert re.search(r'<r4d-figure name="pole" title="Pole" data-source="_static/r4d/[0-9a-f]{32}.js"', html)
-    alt = re.search(r'<img class="r4d-poster" src="(_static/r4d/[^"]+)" width="1280" height="800" alt="([^"]+)"', html)
+    alt = re.search(r'<img src="(_static/r4d/[^"]+)" width="1280" height="800" alt="([^"]+)"', html)
     assert alt is not None
     assert "a gold sphere (flag) at (0.00, 0.00, 1.00)" in alt[2]
     assert (build.site / alt[1]).read_bytes()[8:12] == b"WEBP"
+    dark = re.search(r'<source media="screen and \(prefers-color-scheme: dark\)" srcset="([^"]+)"', html)
+    assert dark is not None
+    corners = [Image.open(build.site / path).convert("RGB").getpixel((0, 0)) for path in (alt[1], dark[1])]
+    assert [max(corner) > 128 for corner in corners] == [True, False]
     assert '<span class="caption-number">Figure 1 </span>' in html
     assert '<r4d-number figure="pole" name="height" format=".1f">1.0\u202fm</r4d-number>' in html
     assert '<r4d-word figure="pole" node="flag">the flag</r4d-word>' in html

@@ -131,7 +131,7 @@ def test_without_its_scripts_a_chapter_shows_still_pictures(browser: Any, site: 
     try:
         window = context.new_page()
         window.goto((site.site / f"{CHAPTERS[0]}.html").as_uri())
-        pictures = window.locator("r4d-figure > img.r4d-poster")
+        pictures = window.locator("r4d-figure > .r4d-poster > img")
         assert pictures.count() > 0
         for i in range(pictures.count()):
             assert pictures.nth(i).is_visible()

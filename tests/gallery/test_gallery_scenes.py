@@ -58,6 +58,23 @@ def test_the_order_of_a_bend_and_a_twist_matters_and_switches_take_them_out():
     assert np.allclose(plain, straight.points.at(0.0), atol=1e-6)
 
 
+def test_a_move_before_a_twist_winds_the_tube_up_and_one_after_it_carries_it_along():
+    """Between the bend, which stays in the list and does not act, and the twist; to both sides of the line, or one."""
+    fig = changes.Between()
+    tube = fig.scene["tube"]
+    assert [type(change).__name__ for change in tube.changes] == ["Bend", "XForm", "Twist", "XForm"]
+    assert [type(change).__name__ for change in tube.changes.at(0.0)] == ["XForm", "Twist"]
+    wound = tube.bounds.at(0.0)[:, 0]
+    assert wound == pytest.approx([-1.14, 1.14], abs=0.01)
+    carried = tube.bounds.at(0.0, place=changes.PLACES[1])[:, 0]
+    assert carried == pytest.approx([0.46, 1.14], abs=0.01)
+    still = [tube.points.at(0.0, place=place, offset=0.0) for place in changes.PLACES]
+    assert np.allclose(*still, atol=1e-6)
+    assert not np.allclose(tube.points.at(0.0, bends=True), tube.points.at(0.0), atol=0.1)
+    [handle] = fig.scene.handles
+    assert handle is not None
+
+
 def test_the_bend_of_the_bar_acts_from_2_to_4_seconds():
     """Its shape has two borders in time, its place has none."""
     bar = changes.Gate().scene["bar"]
@@ -201,8 +218,8 @@ def test_a_point_moves_the_path_and_the_path_the_vase():
 
 def test_a_twist_and_a_bend_keep_the_volume_and_a_taper_does_not():
     """As the text says of the three bars."""
-    values = deformations.Bars().scene.signals
-    found = {name: values[f"{name}ed_volume"].at(0.0) for name in ("taper", "twist", "bend")}
+    scene = deformations.Bars().scene
+    found = {name: scene[name].volume.at(0.0) for name in ("taper", "twist", "bend")}
     whole = 0.7 * 0.7 * 3
     assert found["twist"] == pytest.approx(whole, rel=0.02)
     assert found["bend"] == pytest.approx(whole, rel=0.02)

@@ -1,8 +1,8 @@
 """Blends: whether a viewer may go in a straight line between the baked values of a parameter.
 
 It may where that is right to within a tolerance at the middles of the cells, where it is farthest from what is known:
-a ten-thousandth of the scene's size for what is seen, 1/255 for colours. The shape of a rod is right, the swing of a
-pendulum is not.
+a two-thousandth of the scene's size for shapes, which is less than half a pixel, a ten-thousandth for places, 1/255 for
+colours. The shape of a rod is right, the swing of a pendulum is not.
 """
 
 import itertools
@@ -24,6 +24,8 @@ from reactive4d_widgets.writing import is_numeric, plain
 __all__ = ["blended"]
 
 Array = NDArray[np.float64]
+SHAPE = 5e-4  # of the scene's size
+SLIGHT = 1e-6  # of a value's own size: less than what it is rounded to where it is written
 TIMES = 3  # at which a cell's middle is looked at
 MOST = 64  # middles of cells of several parameters
 
@@ -74,13 +76,16 @@ class _Known:
         what = self.channel.what
         if what == "color":
             return SHADE
-        if what in ("points", "matrix", "target"):
+        if what == "points":
+            return SHAPE * size
+        if what in ("matrix", "target"):
             return PRECISE * size
         found = [self._told(segment, t) for segment in segments for t in self.times if segment.lo <= t < segment.hi]
         values = [value.ravel() for value in found if value is not None]
         if not values or any(value.shape != values[0].shape for value in values):
             return PRECISE * 1e-9
-        return PRECISE * max(float(np.ptp(values, axis=0).max()), 1e-9)
+        varies = float(np.ptp(values, axis=0).max(initial=0.0))
+        return max(PRECISE * varies, SLIGHT * float(np.abs(values).max(initial=0.0)), PRECISE * 1e-9)
 
     def is_straight(self, name: str) -> bool:
         """Whether one may blend along one parameter, whatever the others are."""

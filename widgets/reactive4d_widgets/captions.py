@@ -11,13 +11,17 @@ from PIL import Image, ImageDraw, ImageFont
 
 from reactive4d.geometry.transforms import inverse
 from reactive4d.model.nodes import Node
+from reactive4d.signals.colors import srgb_to_linear
 from reactive4d_widgets.views import View
 
-__all__ = ["Label", "captioned", "label_of", "places"]
+__all__ = ["Label", "captioned", "label_of", "places", "readable"]
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 SEEN = 1.25  # a line of text is so many times as high as its letters' size
+READABLE = 3.0  # contrast (WCAG 2)
+INKS = ((0x22 / 255, 0x25 / 255, 0x2A / 255), (0xE8 / 255, 0xE6 / 255, 0xE1 / 255))
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear light
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +85,25 @@ def places(points: Array, view: View, size: tuple[int, int]) -> Array:
         return np.stack([width / 2.0 - focal * x / z, height / 2.0 + focal * y / z, -z], axis=1)
 
 
+def readable(color: Any, paper: Color) -> Color:
+    """A label's colour, or that of ink where nobody could read it, as the browser's viewer does.
+
+    Args:
+        color: sRGB from 0 to 1, as it was set.
+        paper: the colour behind it.
+
+    >>> readable((0.8, 0.8, 0.8), (1.0, 1.0, 1.0)) == INKS[0]
+    True
+    >>> readable((0.8, 0.0, 0.0), (1.0, 1.0, 1.0))
+    (0.8, 0.0, 0.0)
+    """
+    red, green, blue = (float(x) for x in color[:3])
+    low, high = sorted(float(np.dot(srgb_to_linear(np.array(one)), LUMINANCE)) for one in ((red, green, blue), paper))
+    if (high + 0.05) / (low + 0.05) >= READABLE:
+        return red, green, blue
+    return INKS[0] if float(np.dot(paper, LUMINANCE)) > 0.5 else INKS[1]
+
+
 def captioned(image: Any, labels: Iterable[Label], view: View, *, ratio: float, paper: Color) -> Any:
     """A picture with labels, the nearest in front.
 
@@ -123,7 +146,7 @@ def _written(label: Label, ratio: float, paper: Color) -> Any:
         (1 - left, 1 - top),
         label.text,
         font=font,
-        fill=_bytes(label.color[:3], 1.0),
+        fill=_bytes(readable(label.color, paper), 1.0),
         align="center",
         stroke_width=rim,
         stroke_fill=_bytes(paper, 1.0),

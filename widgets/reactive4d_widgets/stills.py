@@ -14,7 +14,7 @@ from reactive4d.signals.colors import color as color_of
 from reactive4d_widgets.shots import seen
 from reactive4d_widgets.themes import THEMES, Theme
 
-__all__ = ["poster", "render", "seen", "sized", "theme_of"]
+__all__ = ["pictured", "poster", "render", "seen", "sized", "theme_of"]
 
 SIZE = (1280, 960)
 LARGEST = 8192  # pixels; beyond it cards have no textures
@@ -91,6 +91,32 @@ def poster(
     >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 30_000
     True
     """
+    looks: Any = {"camera": camera, "background": background, "edges": edges, "shadows": shadows}
+    image = pictured(subject, t=t, size=size, **looks, parameters=parameters, bounds=bounds, **values)
+    file = io.BytesIO()
+    image.save(file, "PNG", optimize=True)
+    return file.getvalue()
+
+
+def pictured(
+    subject: Any,
+    *,
+    t: float = 0.0,
+    size: tuple[int, int] = SIZE,
+    camera: Any = None,
+    background: str = "light",
+    edges: bool = True,
+    shadows: bool = True,
+    parameters: Mapping[str, Any] | None = None,
+    bounds: Any = None,
+    **values: Any,
+) -> Any:
+    """The same picture as an image of Pillow.
+
+    >>> import reactive4d as r4
+    >>> pictured(r4.Scene(ball=r4.Sphere()), size=(320, 240), background="dark").getpixel((0, 0))
+    (22, 24, 28)
+    """
     from PIL import Image
 
     from reactive4d_widgets.stage import Stage
@@ -100,10 +126,7 @@ def poster(
     given = {**(parameters or {}), **values}
     frame, view, box = seen(subject, t, aspect=width / height, camera=camera, parameters=given, bounds=bounds)
     with Stage(size=(width, height), theme=theme, edges=edges, shadows=shadows) as stage:
-        image: Any = Image.fromarray(stage.drawn(frame, view, bounds=box))
-    file = io.BytesIO()
-    image.save(file, "PNG", optimize=True)
-    return file.getvalue()
+        return Image.fromarray(stage.drawn(frame, view, bounds=box))
 
 
 def sized(size: Any) -> tuple[int, int]:

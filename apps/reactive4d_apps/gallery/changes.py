@@ -7,7 +7,7 @@ import param
 
 import reactive4d as r4
 
-__all__ = ["Gate", "Order", "Stack"]
+__all__ = ["Between", "Gate", "Order", "Stack"]
 
 
 ORDERS: list[str] = ["bend, then twist", "twist, then bend"]
@@ -34,14 +34,58 @@ class Stack(r4.Illustration):
         places = {"tube": 0.0, "bend": r4.where(is_first, 1.0, 2.0), "twist": r4.where(is_first, 2.0, 1.0)}
         strengths = {"tube": 1.0, "bend": r4.where(p.bends, 1.0, 0.25), "twist": r4.where(p.twists, 1.0, 0.25)}
         colors = {"tube": "steelblue", "bend": "darkorange", "twist": "seagreen"}
-        cards: dict[str, r4.Object] = {}
-        for name, place in places.items():
-            card = cards[f"{name} card"] = r4.Box((1.5, 0.2, 0.6), color=colors[name])
-            card.opacity = strengths[name]
-            text = cards[f"{name} text"] = r4.Label(name, height=15)
-            for each in (card, text):
-                each.translate(r4.vec(3.4, 0, 0.8 * place - 0.8))
-        return r4.Scene({"camera": r4.Camera((1.5, -9.5, 3), (1.6, 0, 0), fov=32), "tube": tube, **cards})
+        listed = cards(places, colors, strengths, x=3.4)
+        return r4.Scene({"camera": r4.Camera((1.5, -9.5, 3), (1.6, 0, 0), fov=32), "tube": tube, **listed})
+
+
+PLACES: list[str] = ["between them", "at the end"]
+
+
+class Between(r4.Illustration):
+    """A tube with a bend, a move and a twist: what the move does depends on what stands after it."""
+
+    offset = param.Number(0.8, bounds=(0, 1.2), doc="how far the tube is moved [m]")
+    place: "param.Selector[Any]" = param.Selector(default=PLACES[0], objects=PLACES, doc="where the move stands")
+    bends = param.Boolean(False, doc="whether the bend acts")
+
+    def build(self) -> r4.Scene:
+        """The move stands in the list twice, before the twist and after it; one of the two acts."""
+        p = self.signals
+        is_between = r4.equal(p.place, PLACES[0])
+        tube = r4.Tube(0.34, 0.22, 4, segments=8, stacks=48, color="steelblue")
+        tube.apply(r4.Bend(70, enabled=p.bends))
+        tube.apply(r4.XForm(offset=r4.vec(p.offset, 0, 0), enabled=is_between))
+        tube.apply(r4.Twist(360, center=(0, 0, 0)))
+        tube.apply(r4.XForm(offset=r4.vec(p.offset, 0, 0), enabled=np.logical_not(is_between)))
+
+        post = r4.Line((0, 0, -2.5), (0, 0, 2.7), color="gray")
+        way = r4.Line((0, 0, 0), (1, 0, 0), color="crimson")
+        way.scale(r4.vec(p.offset, 1, 1))
+        way.translate((0, 0, 2.5))
+        grip = r4.Sphere(0.1, segments=24, rings=12, color="crimson")
+        grip.translate(r4.vec(p.offset, 0, 2.5))
+        places = {"tube": 0, "bend": 1, "move": r4.where(is_between, 2, 3), "twist": r4.where(is_between, 3, 2)}
+        colors = {"tube": "steelblue", "bend": "darkorange", "move": "crimson", "twist": "seagreen"}
+        strengths = {"bend": r4.where(p.bends, 1.0, 0.25)}
+        listed = cards(places, colors, strengths, x=3.4)
+        camera = r4.Camera((1.5, -12.5, 3), (1.5, 0, 0.1), fov=27)
+        scene = r4.Scene({"camera": camera, "tube": tube, "post": post, "way": way, "grip": grip, **listed})
+        scene.handle(grip, x=p.offset, label="the move")
+        return scene
+
+
+def cards(
+    places: dict[str, Any], colors: dict[str, str], strengths: dict[str, Any], *, x: float
+) -> dict[str, r4.Object]:
+    """A list of changes, one card above the other; what does not act is pale."""
+    made: dict[str, r4.Object] = {}
+    for name, place in places.items():
+        card = made[f"{name} card"] = r4.Box((1.7, 0.2, 0.6), color=colors[name])
+        card.opacity = strengths.get(name, 1.0)
+        text = made[f"{name} text"] = r4.Label(name, height=15)
+        for each in (card, text):
+            each.translate(r4.vec(x, 0, 0.8 * place - 0.8))
+    return made
 
 
 class Gate(r4.Illustration):

@@ -31,10 +31,7 @@ class Bars(r4.Illustration):
             bars[name].color = color
             labels[f"{name}?"] = r4.Label(name, at=(2.2 * i, -0.6, -0.35), height=15)
         camera = r4.Camera((2.6, -12, 4), (2.3, 0, 1.4), fov=26)
-        scene = r4.Scene({**bars, **labels, "camera": camera})
-        for name, bar in bars.items():
-            scene.signals[f"{name}ed_volume"] = bar.volume
-        return scene
+        return r4.Scene({**bars, **labels, "camera": camera})
 
 
 class Lattice(r4.Illustration):

@@ -3,7 +3,7 @@
 import io
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -22,12 +22,14 @@ from reactive4d_widgets.figures import checked_options
 from reactive4d_widgets.plans import Plan, planned
 from reactive4d_widgets.playbacks import Playback
 from reactive4d_widgets.sights import text_of
-from reactive4d_widgets.stills import poster
+from reactive4d_widgets.stills import pictured
 from reactive4d_widgets.tables import compact, tabulated
+from reactive4d_widgets.themes import THEMES
 
 __all__ = ["Baking", "Pantry", "Still", "Wish", "meant", "opening"]
 
 SIZE = (1280, 800)  # of a still picture, pixels
+QUALITY = 75  # of 100: nobody sees a difference, and two pictures take little more than one at 88 did
 LIMIT = 20_000_000  # bytes of one figure
 
 
@@ -159,17 +161,20 @@ class Pantry:
             point: time and parameters, as they travel.
         """
         name = f"{baking.key[:16]}-{digest_of(compact([point['time'], point['parameters']]), [])[:16]}"
-        light, printed, told = (self.folder / f"{name}.{ending}" for ending in ("webp", "png", "txt"))
-        if not (light.exists() and printed.exists() and told.exists()):
+        endings = ("webp", "dark.webp", "png", "txt")
+        light, dark, printed, told = (self.folder / f"{name}.{ending}" for ending in endings)
+        if not all(path.exists() for path in (light, dark, printed, told)):
             self.drawn += 1
             self.folder.mkdir(parents=True, exist_ok=True)
             plan = wish.plan()
             given = {key: plan.controls[key].decode(wire) for key, wire in point["parameters"].items()}
-            png = _drawn(plan, baking, point, given)
-            put(printed, png)
-            put(light, _light(png))
+            draw = _drawing(plan, baking, point, given)
+            images = {theme: draw(theme) for theme in ("light", "dark")}
+            put(printed, _encoded(images["light"], "PNG", optimize=True))
+            for theme, path in (("light", light), ("dark", dark)):
+                put(path, _encoded(images[_theme(baking, theme)], "WEBP", quality=QUALITY, method=6))
             put(told, _told(plan, baking, point["time"], given).encode("utf-8"))
-        return Still(light, printed, told.read_text(encoding="utf-8"))
+        return Still(light, dark, printed, told.read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)
@@ -178,11 +183,13 @@ class Still:
 
     Attributes:
         light: as WebP, for a page.
+        dark: the same in dark surroundings.
         printed: as PNG, for print.
         text: what is to be seen.
     """
 
     light: Path
+    dark: Path
     printed: Path
     text: str
 
@@ -207,27 +214,31 @@ def _fixed(plan: Plan, manifest: Mapping[str, Any]) -> list[str]:
     return [f"readers of a page from the disk cannot move {', '.join(movable)}; to let them: `:parameters: {told}`"]
 
 
-def _drawn(plan: Plan, baking: Baking, point: Mapping[str, Any], given: Mapping[str, Any]) -> bytes:
-    """PNG."""
+def _drawing(plan: Plan, baking: Baking, point: Mapping[str, Any], given: Mapping[str, Any]) -> Callable[[str], Any]:
+    """What makes a picture of it in light or in dark surroundings, by Pillow."""
     from PIL import Image
 
     manifest, t = baking.manifest, point["time"]
     scene = plan.subject.scene
     if not can_draw() or plan.asker.ask(scene.frame, t, given).error is not None:
-        file = io.BytesIO()
-        Image.new("RGB", SIZE, "white").save(file, "PNG")
-        return file.getvalue()
+        return lambda theme: Image.new("RGB", SIZE, tuple(round(255 * x) for x in THEMES[theme].paper))
     camera = point["camera"]
     if camera is None and not any(n.primitive == "camera" and n.visible for n in scene.at(t, **given).values()):
         camera = {key: manifest["view"][key] for key in ("position", "target", "up", "fov")}
-    return poster(plan.subject.thing, t=t, size=SIZE, camera=camera, parameters=given, bounds=manifest["bounds"])
+    looks: Any = {key: manifest["options"][key] for key in ("edges", "shadows") if key in manifest["options"]}
+    looks |= {"camera": camera, "parameters": given, "bounds": manifest["bounds"]}
+    return lambda theme: pictured(plan.subject.thing, t=t, size=SIZE, background=theme, **looks)
 
 
-def _light(png: bytes) -> bytes:
-    from PIL import Image
+def _theme(baking: Baking, theme: str) -> str:
+    """In which surroundings a figure is shown where the page has these: its own, if it has some."""
+    own = baking.manifest["options"].get("theme")
+    return own if own in THEMES else theme
 
+
+def _encoded(image: Any, kind: str, **options: Any) -> bytes:
     file = io.BytesIO()
-    Image.open(io.BytesIO(png)).save(file, "WEBP", quality=88, method=6)
+    image.save(file, kind, **options)
     return file.getvalue()
 
 

@@ -41,6 +41,7 @@ class Fold(nodes.General, nodes.Element):
     """What a reader unfolds; its first child is the title."""
 
 
+DARK = "screen and (prefers-color-scheme: dark)"
 ELSEWHERE = "Where the book is served, a reader can edit this script, in a copy of their own."
 
 
@@ -59,8 +60,8 @@ def _visit_illustration(translator: Any, node: nodes.Element) -> None:
     page = builder.get_target_uri(builder.current_docname)
     static = relative_uri(page, "_static/")
     width, height = node["size"]
+    dark = {"media": DARK, "srcset": f"{static}r4d/{node['dark']}"}
     picture = {
-        "class": "r4d-poster",
         "src": f"{static}r4d/{node['picture']}",
         "width": width,
         "height": height,
@@ -75,7 +76,8 @@ def _visit_illustration(translator: Any, node: nodes.Element) -> None:
         "data-line": node["line_name"],
         "style": f"--r4d-height: {node['height']}px" if node["height"] else "",
     }
-    translator.body.append(f"{_open('r4d-figure', attributes)}{_open('img', picture)}</r4d-figure>\n")
+    poster = f'<picture class="r4d-poster">{_open("source", dark)}{_open("img", picture)}</picture>'
+    translator.body.append(f"{_open('r4d-figure', attributes)}{poster}</r4d-figure>\n")
     raise nodes.SkipNode
 
 

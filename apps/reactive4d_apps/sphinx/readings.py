@@ -201,10 +201,10 @@ class Readings(SphinxTransform):
 
     def _still(self, node: Illustration, still: Still) -> None:
         node["alt"] = node["said"] or still.text
-        node["picture"] = still.light.name
+        node["picture"], node["dark"] = still.light.name, still.dark.name
         node["uri"] = os.path.relpath(still.printed, self.env.srcdir)
         self.env.images.add_file(self.env.docname, node["uri"])
-        site_of(self.env)[self.env.docname][node["line_name"]]["pictures"] = [str(still.light)]
+        site_of(self.env)[self.env.docname][node["line_name"]]["pictures"] = [str(still.light), str(still.dark)]
 
     def _code(self, node: Illustration, figure: nodes.figure, program: Program) -> None:
         where = node["code_at"]

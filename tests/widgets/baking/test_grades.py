@@ -104,6 +104,33 @@ def test_what_is_wrong_between_its_stops_stops_at_them(bake: Any) -> None:
     assert not baked.played.knows("bar#points", 0.0, baked.wires({"bend": 45.0}))
 
 
+def test_what_bends_is_free_where_its_values_stand_close_enough(bake: Any) -> None:
+    """From one value to the next it is as good as straight, for the eye."""
+    baked = bake(Various, times=(0, 1), bend=np.linspace(0, 90, 9))
+    assert baked.parameter("bend")["grade"] == "free"
+    size = np.linalg.norm(np.subtract(*baked.manifest["bounds"]))
+    wires = baked.wires({"bend": 40.0})
+    assert baked.played.knows("bar#points", 1.0, wires)
+    truth = Various().scene["bar"].points.at(1.0, bend=40.0)
+    assert np.abs(baked.played.at("bar#points", 1.0, wires) - truth).max() < 5e-4 * size
+
+
+def test_a_value_that_stays_the_same_but_for_rounding_does_not_stop_anything(bake: Any) -> None:
+    """The volume of what is twisted is nearly the same for all angles."""
+
+    class Twisted(r4.Illustration):
+        angle = param.Number(0.0, bounds=(0, 30))
+
+        def build(self) -> r4.Scene:
+            bar = r4.Box((0.1, 0.1, 1), segments=(1, 1, 12))
+            bar.apply(r4.Twist(self.signals.angle))
+            scene = r4.Scene(bar=bar)
+            scene.signals["nearly"] = 1.5 + 1e-7 * np.sin(self.signals.angle * bar.volume)
+            return scene
+
+    assert bake(Twisted, times=(0, 1), angle=np.linspace(0, 30, 4)).parameter("angle")["grade"] == "free"
+
+
 def test_the_swing_of_a_pendulum_is_not_blended(bake: Any) -> None:
     """The poses at neighbouring lengths have nothing in common: where it is not an expression, it stops."""
 

@@ -204,6 +204,15 @@ def test_a_label_stands_at_its_point():
     assert ((hidden[..., 0] > 200) & (hidden[..., 1] < 90)).any()
 
 
+@pytest.mark.parametrize("background", ["light", "dark"])
+def test_a_label_can_be_read_whatever_is_behind_it(background: str):
+    """Where its own colour could not be, as that of a label without one, it is written in ink."""
+    scenes = [r4.Scene(label=r4.Label("HH", height=32, **color)) for color in ({}, {"color": "red"})]
+    plain, red = [drawn(scene, camera=FRONT, background=background) for scene in scenes]
+    assert np.abs(plain - plain[0, 0]).max() > 180
+    assert np.abs(red - (255, 0, 0)).max(axis=2).min() < 30
+
+
 def test_a_label_behind_the_eye_or_without_text_is_not_written():
     """And one at the edge is cut."""
     behind = r4.Label("behind", at=(0, -20, 0), color="black")
