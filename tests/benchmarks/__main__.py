@@ -18,6 +18,7 @@ from .instructions import instructions
 from .memory import memory
 from .modelling import modelling
 from .paging import paging
+from .playing import playing
 from .reports import Section, conditions, data, markdown, text, verdicts
 from .rerunning import rerunning
 from .runs import Run
@@ -42,6 +43,7 @@ BENCHMARKS = {
     "sweeps": sweeping,
     "films": filming,
     "dragging": dragging,
+    "playing": playing,
     "rerunning": rerunning,
 }
 _BEGIN, _END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"

@@ -77,12 +77,18 @@ def read(browser: Any) -> Iterator[Callable[..., Any]]:
     forgiven: list[str] = []
 
     def opened(
-        address: str, *, point: str = "", forgive: str = "", live: bool = True, size: tuple[int, int] = (1000, 900)
+        address: str,
+        *,
+        point: str = "",
+        forgive: str = "",
+        live: bool = True,
+        size: tuple[int, int] = (1000, 900),
+        init: str = "",
     ) -> Any:
         forgiven.extend([forgive] if forgive else [])
         contexts.append(browser.new_context(viewport={"width": size[0], "height": size[1]}))
         page = contexts[-1].new_page()
-        page.add_init_script(COUNTING)
+        page.add_init_script(f"{COUNTING};{init}")
         home = urlsplit(address).netloc
 
         def note(url: str) -> None:

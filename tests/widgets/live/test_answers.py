@@ -87,6 +87,37 @@ def test_while_time_runs_ticks_are_asked_and_shared_by_all_readers(viewer: Viewe
     assert [str(event) for event in events if event.kind == "evaluated" and "cloth" in event.name] == []
 
 
+@pytest.fixture
+def counted() -> Viewer:
+    """Somebody who looks at what becomes another thing at every instant, and at what only moves."""
+    label = r4.Label(r4.lift(lambda t: f"{t:.3f} s")(r4.time))
+    cut = r4.Box() - r4.Sphere(radius=0.4 + 0.1 * r4.time, segments=8)
+    cloth = r4.Box(size=(1, 1, 0.2))
+    cloth.apply(r4.Bend(30 * np.sin(r4.time), axis="x"))
+    return Viewer(r4.Scene(label=label, cut=cut, cloth=cloth), times=(0, 2))
+
+
+def test_while_a_figure_plays_one_ask_tells_several_cells_whole(counted: Viewer) -> None:
+    """The instants of an ask stand for the ticks round them: what moves goes on, what cannot stays as it was."""
+    middles = [(k + 0.5) / 30 for k in range(4)]
+    channels = ["label#text", "cut#points", "cut#topology", "cloth#points"]
+    segments = counted.ask(middles, channels, plays=True)["segments"]
+    for channel in channels:
+        spans = sorted([one["when"] for one in segments if one["channel"] == channel])
+        np.testing.assert_allclose(spans, [[k / 30, (k + 1) / 30] for k in range(4)], atol=1e-9)
+    assert counted.look("label#text", 1.9 / 30) == "0.033 s"
+    origin = counted.look("cut#topology", 1.9 / 30)["origin"]
+    assert origin.max() < len(counted.look("cut#points", 1.9 / 30)), "the faces are those of the points"
+
+
+def test_what_was_good_enough_for_one_who_plays_is_not_told_to_one_who_scrubs(counted: Viewer) -> None:
+    """Who scrubs sees the very time in a text."""
+    counted.ask([0.5 / 30], ["label#text"], plays=True)
+    other = Viewer(counted.reader.thing, model=counted.reader.model)
+    for t in (0.015, 0.016):
+        assert other.look("label#text", t) == f"{t:.3f} s"
+
+
 def test_at_rest_the_very_time_is_asked(viewer: Viewer) -> None:
     """Parameters are dragged while time stands still: no tick is asked beside it."""
     for length in (1.0, 1.1, 1.2):

@@ -78,6 +78,7 @@ BAD: list[tuple[Any, str]] = [
     ({**GOOD, "channels": [7]}, r"channels\[0\]: expected a name, got 7"),
     ({**GOOD, "channels": ["x" * 10_000]}, r"channels\[0\]: expected a name"),
     ({**GOOD, "channels": ["a"] * 200_000}, "channels: 200000 are too many"),
+    ({**GOOD, "plays": 1}, "plays: expected true or false, got 1"),
     ({**GOOD, "parameters": None}, "parameters: expected an object"),
     ({**GOOD, "parameters": {"size": 1}}, "unknown parameter 'size'"),
     ({**GOOD, "parameters": {"__class__": 1}}, "unknown parameter '__class__'"),

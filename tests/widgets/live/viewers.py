@@ -53,10 +53,11 @@ class Viewer:
             lo, hi = -np.inf if lo is None else lo, np.inf if hi is None else hi
             self.segments = [part for one in self.segments for part in cut(one, channel, lo, hi)]
 
-    def ask(self, t: float, channels: list[str], **wires: Any) -> Message:
+    def ask(self, t: float | list[float], channels: list[str], *, plays: bool = False, **wires: Any) -> Message:
         """Ask, and remember what is answered."""
         ask = {"seq": len(self.asks) + 1, "revision": self.revision, "parameters": {**self.wires, **wires}}
-        ask = {"type": "ask", **ask, "times": [t], "channels": channels}
+        times = t if isinstance(t, list) else [t]
+        ask = {"type": "ask", **ask, "times": times, "channels": channels, **({"plays": True} if plays else {})}
         self.asks.append(ask)
         reply = self.sent(ask)
         assert reply["type"] == "answer", reply

@@ -43,13 +43,15 @@ class Place:
         t: seconds.
         values: of all parameters, as signals take them.
         wires: the same, as they travel.
-        is_running: whether time runs, so that ticks will do.
+        is_running: whether time alone is another one than before, so that ticks will do.
+        is_playing: whether it runs by itself, so that what is asked is asked for all instants up to the next tick.
     """
 
     t: float
     values: Mapping[str, Any]
     wires: Mapping[str, Any]
     is_running: bool = False
+    is_playing: bool = False
 
 
 @dataclass(slots=True)
@@ -90,10 +92,15 @@ class Answerer:
             made = None if said.error is not None else self._between(channel, cell, said, place)
             if made is not None:
                 return made
+            if place.is_playing and self._is_brief(said.interval, cell[0]):
+                return self._made(channel, cell, _body(channel, said), [said], place, is_held=True)
         return self._resting(channel, self._say(channel, place.t, place), place)
 
     def _is_instant(self, interval: Interval, t: float) -> bool:
         return interval.stop - t < SHORT * self.span.step
+
+    def _is_brief(self, interval: Interval, t: float) -> bool:
+        return self._is_instant(interval, t) and interval.stop - interval.start < self.span.step
 
     def _cell(self, t: float) -> tuple[float, float] | None:
         """The two ticks round a time, or the keys between them; None where it is a tick by itself."""
@@ -115,10 +122,9 @@ class Answerer:
     def _resting(self, channel: Channel, said: _Said, place: Place) -> Record:
         """What holds over its box; what holds for an instant only is known for that instant."""
         lo, hi = said.interval.start, said.interval.stop
-        if self._is_instant(said.interval, place.t) and hi - lo < self.span.step:
+        if self._is_brief(said.interval, place.t):
             lo, hi = place.t, math.nextafter(place.t, math.inf)
-        body: dict[str, Any] = {"error": said.error} if said.error is not None else {"track": _rest(channel, said)}
-        return self._made(channel, (lo, hi), body, [said], place)
+        return self._made(channel, (lo, hi), _body(channel, said), [said], place)
 
     def _between(self, channel: Channel, cell: tuple[float, float], a: _Said, place: Place) -> Record | None:
         """What moves from one tick to the next; None where it does not simply move."""
@@ -164,13 +170,14 @@ class Answerer:
         place: Place,
         *,
         is_sampled: bool = False,
+        is_held: bool = False,
     ) -> Record:
         reads = sorted({name for one in said for name in one.reads if name in place.wires})
         where = {name: listed(place.wires[name]) for name in reads}
         wire = {"channel": channel.name, "when": [_end(when[0]), _end(when[1])], "where": where, **body}
         witnesses = tuple([one for part in said for one in part.witnesses])
         refs = tuple(dict.fromkeys([ref for part in said for ref in part.refs]))
-        return Record(channel.name, *when, where, wire, refs, witnesses, is_sampled)
+        return Record(channel.name, *when, where, wire, refs, witnesses, is_sampled, is_held)
 
     # -- asking ------------------------------------------------------------------------------------------------------
 
@@ -236,10 +243,12 @@ class Answerer:
         }
 
 
-def _rest(channel: Channel, said: _Said) -> dict[str, Any]:
+def _body(channel: Channel, said: _Said) -> dict[str, Any]:
+    if said.error is not None:
+        return {"error": said.error}
     if channel.what == "points" and said.value is not None:
-        return {"kind": "ref", "ref": said.value}
-    return constant(said.value)
+        return {"track": {"kind": "ref", "ref": said.value}}
+    return {"track": constant(said.value)}
 
 
 def refs_in(value: Any) -> tuple[str, ...]:

@@ -37,6 +37,7 @@ class Ask:
         parameters: values as they travel, by name; not yet admitted.
         times: seconds, finite.
         channels: their names; whether they exist is another matter.
+        plays: whether time runs: then the ticks round a time will do.
     """
 
     seq: int
@@ -44,6 +45,7 @@ class Ask:
     parameters: Mapping[str, Any]
     times: tuple[float, ...]
     channels: tuple[str, ...]
+    plays: bool = False
 
 
 def read_type(message: Any) -> str:
@@ -76,7 +78,7 @@ def read_ask(message: Any) -> Ask:
         MessageError: a field is missing, too large, or of another type.
 
     >>> read_ask({"seq": 1, "revision": 1, "parameters": {"length": 2}, "times": [0.5], "channels": ["bob#matrix"]})
-    Ask(seq=1, revision=1, parameters={'length': 2}, times=(0.5,), channels=('bob#matrix',))
+    Ask(seq=1, revision=1, parameters={'length': 2}, times=(0.5,), channels=('bob#matrix',), plays=False)
     """
     fields = _object(message, "ask")
     times = tuple([_time(t, f"times[{i}]") for i, t in enumerate(_list(fields.get("times"), "times", MOST_TIMES))])
@@ -92,6 +94,7 @@ def read_ask(message: Any) -> Ask:
         parameters={_text(name, "parameters"): _wire(value, name) for name, value in parameters.items()},
         times=times,
         channels=channels,
+        plays=_truth(fields.get("plays", False), "plays"),
     )
 
 
@@ -159,6 +162,12 @@ def _is_whole(value: Any) -> bool:
     if isinstance(value, float) and value.is_integer():
         value = int(value)
     return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= LARGEST
+
+
+def _truth(value: Any, what: str) -> bool:
+    if not isinstance(value, bool):
+        raise MessageError(f"{what}: expected true or false, got {_kind(value)}")
+    return value
 
 
 def _whole(value: Any, what: str) -> int:

@@ -173,7 +173,7 @@ class Model:
         track = layout.tracking.record(channel, place.t, place.values)
         if track is not None:
             return track
-        known = self._records.find(name, place.t, place.wires, sampled=place.is_running)
+        known = self._records.find(name, place.t, place.wires, sampled=place.is_running, held=place.is_playing)
         if known is not None and all(ref in self.vault for ref in known.refs):
             return known
         made = layout.answerer.record(channel, place)

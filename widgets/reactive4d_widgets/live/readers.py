@@ -187,7 +187,7 @@ class Reader:
                 if before is not None and before != self._last:
                     self._is_running = before[1] == key
             is_running = self._is_running
-        return [Place(t, values, wires, is_running) for t in ask.times]
+        return [Place(t, values, wires, is_running or ask.plays, ask.plays) for t in ask.times]
 
     def _settled(self, key: str, given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
         """The values of all parameters, as signals take them, and as they travel."""

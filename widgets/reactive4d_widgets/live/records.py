@@ -29,6 +29,7 @@ class Record:
         refs: the arrays in it.
         witnesses: what it follows from; a track that was read off has none, but a ground.
         is_sampled: whether it says something between ticks that was not asked there.
+        is_held: whether it says between ticks what was so at the tick before: good enough while a figure plays only.
         is_stale: whether an edit has overtaken it.
     """
 
@@ -40,6 +41,7 @@ class Record:
     refs: tuple[str, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     is_sampled: bool = False
+    is_held: bool = False
     is_stale: bool = False
 
     def __lt__(self, other: "Record") -> bool:
@@ -70,14 +72,15 @@ class Records:
     def __len__(self) -> int:
         return len(self._order)
 
-    def find(self, channel: str, t: float, wires: Mapping[str, Any], *, sampled: bool) -> Record | None:
+    def find(self, channel: str, t: float, wires: Mapping[str, Any], *, sampled: bool, held: bool) -> Record | None:
         """A record that answers a point.
 
         Args:
             channel: its name.
             t: seconds.
             wires: all parameters, as they travel.
-            sampled: whether one will do that says something between ticks.
+            sampled: whether one will do that goes from tick to tick.
+            held: whether one will do that says what was so at the tick before.
         """
         with self._lock:
             for shelf in self._shelves.get(channel, ()):
@@ -86,7 +89,7 @@ class Records:
                     continue
                 i = bisect_right(table, t, key=_start)
                 for record in reversed(table[max(i - BACK, 0) : i]):
-                    if t < record.hi and (sampled or not record.is_sampled):
+                    if t < record.hi and (sampled or not record.is_sampled) and (held or not record.is_held):
                         return record
         return None
 

@@ -86,6 +86,16 @@ export class Clock extends Emitter {
     this.#last = this.now();
   }
 
+  /** By how much it runs in a second. */
+  get pace() {
+    return this.rate * this.speed;
+  }
+
+  /** Where it will stand, as far as one can tell; null if it does not run. @param {number} seconds from now */
+  after(seconds) {
+    return this.paused ? null : this.#moved(seconds * this.pace).value;
+  }
+
   /** Stop, and step to the next mark, or to the end. */
   next() {
     this.pause();
@@ -108,22 +118,22 @@ export class Clock extends Emitter {
     const now = this.now();
     const passed = now - this.#last;
     this.#last = now;
-    const step = Math.min(Math.max(passed, 0), LEAP) * this.rate * this.speed;
-    const value = this.value + step;
-    const span = this.stop - this.start;
-    const isOver = step >= 0 ? value >= this.stop : value <= this.start;
+    const { value, isOver } = this.#moved(Math.min(Math.max(passed, 0), LEAP) * this.pace);
     // The frame is asked for first: a listener may pause.
     this.#frame = this.request(this.#run);
-    if (!isOver) {
-      this.#go(value);
-    } else if (this.loop && span > 0) {
-      const past = (value - this.start) % span;
-      this.#go(this.start + (past < 0 ? past + span : past));
-    } else {
-      this.pause();
-      this.#go(step >= 0 ? this.stop : this.start);
-    }
+    if (isOver) this.pause();
+    this.#go(value);
   };
+
+  /** @param {number} step */
+  #moved(step) {
+    const value = this.value + step;
+    const span = this.stop - this.start;
+    if (step >= 0 ? value < this.stop : value > this.start) return { value, isOver: false };
+    if (!this.loop || span <= 0) return { value: step >= 0 ? this.stop : this.start, isOver: true };
+    const past = (value - this.start) % span;
+    return { value: this.start + (past < 0 ? past + span : past), isOver: false };
+  }
 
   /** @param {number} value */
   #go(value) {

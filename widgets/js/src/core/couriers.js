@@ -32,7 +32,7 @@ export class Courier {
   #refused = new Map();
   /** Arrays that were asked for, and did not come. @type {Set<string>} */
   #lost = new Set();
-  /** @type {Map<number, Place|null>} */
+  /** @type {Map<number, {parameters: Parameters, times: readonly number[]}|null>} */
   #asks = new Map();
   #seq = 0;
   isClosed = false;
@@ -65,7 +65,7 @@ export class Courier {
 
   /** The times that are being asked for, with these parameters. @param {Parameters} parameters */
   times(parameters) {
-    return [...this.#asks.values()].flatMap((place) => (place?.parameters === parameters ? [place.time] : []));
+    return [...this.#asks.values()].flatMap((ask) => (ask?.parameters === parameters ? ask.times : []));
   }
 
   /** Whether a channel was asked for at a place, and there was no answer.
@@ -79,18 +79,32 @@ export class Courier {
     return this.#lost.has(ref);
   }
 
-  /** Ask for channels at a place. Raises what went wrong. @param {Place} place @param {string[]} channels */
-  async ask(place, channels) {
-    const seq = ++this.#seq;
+  /** Ask for channels at a place. Raises what went wrong. @param {Place} place @param {string[]} channels
+   * @param {boolean} [plays] whether time runs */
+  async ask(place, channels, plays = false) {
     const { time, parameters } = place;
-    this.#asks.set(seq, place);
+    const { isNew } = await this.#go(parameters, [time], channels, plays);
+    if (!isNew) return;
+    const silent = channels.filter((channel) => this.store.find(channel, time, parameters) === null);
+    this.#refuse(keyOfPlace(place), silent);
+  }
+
+  /** Ask for channels at instants at which time will be. Raises what went wrong. @param {Parameters} parameters
+   * @param {import("./aheads.js").Plan} plan @returns {Promise<number>} how many bytes of arrays came */
+  async askAhead(parameters, { times, channels }) {
+    return (await this.#go(parameters, times, channels, true)).bytes;
+  }
+
+  /** @param {Parameters} parameters @param {number[]} times @param {string[]} channels @param {boolean} plays
+   * @returns {Promise<{isNew: boolean, bytes: number}>} whether it is of the revision that is known */
+  async #go(parameters, times, channels, plays) {
+    const seq = ++this.#seq;
+    this.#asks.set(seq, { parameters, times });
     try {
-      const ask = { seq, revision: this.revision, parameters, times: [time], channels };
+      const ask = { seq, revision: this.revision, parameters, times, channels, ...plays && { plays } };
       const { revision, segments, blobs } = readAnswer(await this.transport.ask(ask), seq);
-      await this.#unpack(blobs);
-      if (this.isClosed || !this.#keep(revision, segments)) return;
-      const silent = channels.filter((channel) => this.store.find(channel, time, parameters) === null);
-      this.#refuse(keyOfPlace(place), silent);
+      const bytes = await this.#unpack(blobs);
+      return { isNew: !this.isClosed && this.#keep(revision, segments), bytes };
     } finally {
       this.#asks.delete(seq);
     }
@@ -140,12 +154,13 @@ export class Courier {
     return !isLate;
   }
 
-  /** Unpack arrays and keep them, all or none. @param {any[]} chunks */
+  /** Unpack arrays and keep them, all or none. @param {any[]} chunks @returns {Promise<number>} bytes */
   async #unpack(chunks) {
     const made = await Promise.all(chunks.map((chunk, i) => decode(chunk, `blobs[${i}]`)));
     const blobs = made.flatMap((one) => [...one.values()]);
     for (const { ref } of blobs) this.#lost.delete(ref);
     this.blobs.put(blobs);
+    return blobs.reduce((bytes, { array }) => bytes + array.byteLength, 0);
   }
 
   /** @param {string} key @param {string[]} channels */

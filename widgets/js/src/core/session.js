@@ -3,8 +3,10 @@
  *
  * A wish is a point that somebody wants to see. It is committed when everything in view is known there, all at once, as
  * an immutable snapshot; until then the last one stays. At most two asks are under way; the wish that waits is always
- * the newest, so a drag ends where it ended, whatever the transport takes.
+ * the newest, so a drag ends where it ended, whatever the transport takes. While time plays, one of the two is for what
+ * comes next.
  */
+import { Ahead } from "./aheads.js";
 import { BlobStore } from "./blobs.js";
 import { READERS } from "./channels.js";
 import { Courier, keyOfPlace } from "./couriers.js";
@@ -26,6 +28,8 @@ import { Watch } from "./watches.js";
  * @typedef {import("./types.js").Stale} Stale
  * @typedef {import("./types.js").Span} Span
  * @typedef {import("./couriers.js").Place} Place
+ * @typedef {import("./aheads.js").Hand} Hand
+ * @typedef {import("./aheads.js").Plan} Plan
  * @typedef {{time?: number, parameters?: Readonly<Record<string, any>>}} Patch
  *
  * @typedef {object} Wish
@@ -48,7 +52,8 @@ const MOST_LESSONS = 64; // that wait
  * @extends {Emitter<{point: Place, commit: Snapshot, stale: Stale["spans"], wait: boolean, problem: Problem}>}
  */
 export class Session extends Emitter {
-  /** All that there is once the manifest is. @type {{manifest: Manifest, watch: Watch, courier: Courier}|null} */
+  /** All that there is once the manifest is.
+   * @type {{manifest: Manifest, watch: Watch, courier: Courier, ahead: Ahead}|null} */
   #parts = null;
   /** @type {Wish|null} */
   #wish = null;
@@ -56,6 +61,12 @@ export class Session extends Emitter {
   #snapshot = null;
   /** What is wanted for later, if nobody waits. @type {Lesson[]} */
   #lessons = [];
+  /** What moves the reader on, while it does. @type {Hand|null} */
+  #hand = null;
+  /** What was asked before it is due. @type {Plan|null} */
+  #plan = null;
+  #dues = 0; // asks under way for a wish
+  #isBlind = false; // what was asked ahead went wrong
   /** @type {{key: string, parameters: Parameters, made: Span[]}|null} */
   #spans = null;
   #wishes = 0;
@@ -65,10 +76,11 @@ export class Session extends Emitter {
 
   /**
    * @param {Transport} transport
-   * @param {{store?: ChannelStore, blobs?: BlobStore}} [options]
+   * @param {{store?: ChannelStore, blobs?: BlobStore, now?: () => number}} [options] now: milliseconds
    */
-  constructor(transport, { store = new ChannelStore(), blobs = new BlobStore() } = {}) {
+  constructor(transport, { store = new ChannelStore(), blobs = new BlobStore(), now = () => performance.now() } = {}) {
     super();
+    this.now = now;
     this.transport = transport;
     this.store = store;
     this.blobs = blobs;
@@ -85,7 +97,7 @@ export class Session extends Emitter {
     }));
     const watch = new Watch(manifest, this.store, this.blobs);
     const courier = new Courier(this.transport, this.store, this.blobs, manifest.revision);
-    this.#parts = { manifest, watch, courier };
+    this.#parts = { manifest, watch, courier, ahead: new Ahead(manifest, this.store) };
     this.transport.onStale((stale) => this.#cut(stale));
     const { time, parameters } = manifest.point;
     this.#wish = this.#wishFor(Object.freeze({ time, parameters }));
@@ -121,13 +133,23 @@ export class Session extends Emitter {
     return this.#isWaiting;
   }
 
+  /** What moves the reader on, while time plays. */
+  get hand() {
+    return this.#hand;
+  }
+
   /** Go elsewhere. Times and values are brought to the nearest that there are; what cannot be meant changes nothing.
-   * @param {Patch} patch */
-  set(patch) {
+   * @param {Patch} patch @param {Hand|null} [hand] what goes there and further on, if it is not the reader */
+  set(patch, hand = null) {
     const before = this.point;
     const place = this.#placeFor(patch);
     if (place.time === before.time && place.parameters === before.parameters) return;
     this.#wish = this.#wishFor(place);
+    this.#hand = hand;
+    if (hand === null) { // what was asked ahead may come or not
+      this.#plan = null;
+      this.#isBlind = false;
+    }
     this.emit("point", place);
     this.#pump();
   }
@@ -218,15 +240,38 @@ export class Session extends Emitter {
     if (lack !== null) {
       const { courier } = this.#open;
       // Arrays may come with the answers that are under way.
-      const canAsk = lack.missing.length > 0 ? !courier.isBusy : courier.count === 0;
+      // While time plays, one ask is for what is due, and that only if nothing was asked ahead.
+      const isFree = !courier.isBusy && (this.#hand === null || (this.#plan === null && this.#dues === 0));
+      const canAsk = lack.missing.length > 0 ? isFree : courier.count === 0;
       if (canAsk && !wish.isAsked && !wish.isLost) {
         if (++wish.tries > MOST_TRIES) this.#lose(wish, `No answer after ${MOST_TRIES} asks.`);
         else this.#ask(wish, lack.missing, lack.wanted);
       }
       this.#wait(!wish.isLost);
-      if (!wish.isLost) return;
     }
-    this.#teach();
+    this.#foresee();
+    if (lack === null || wish.isLost) this.#teach();
+  }
+
+  /** Ask for what is due soon, if time plays, and what is here now was shown. */
+  #foresee() {
+    const { ahead, courier } = this.#open;
+    const { parameters } = this.point;
+    if (this.#hand === null || this.#plan !== null || this.#isBlind || courier.isBusy) return;
+    if (this.#snapshot?.parameters !== parameters || this.#snapshot.revision !== this.revision) return;
+    const plan = ahead.plan(parameters, this.#hand);
+    if (plan === null) return;
+    this.#plan = plan;
+    const begun = this.now();
+    courier.askAhead(parameters, plan).then(
+      (bytes) => ahead.learn(plan, (this.now() - begun) / 1_000, bytes),
+      () => { this.#isBlind = this.#plan === plan; }, // whoever asks for what is due is told why
+    ).then(() => {
+      if (this.#plan === plan) this.#plan = null;
+      if (this.#isClosed) return;
+      this.#pump();
+      courier.tidy(() => this.#open.watch.refs);
+    });
   }
 
   /** What has to be asked for before a wish can be committed; null if nothing. @param {Wish} wish */
@@ -262,13 +307,15 @@ export class Session extends Emitter {
   async #ask(wish, missing, wanted) {
     const { courier, watch } = this.#open;
     wish.isAsked = true;
+    this.#dues++;
     try {
-      if (missing.length > 0) await courier.ask(wish.place, missing);
+      if (missing.length > 0) await courier.ask(wish.place, missing, this.#hand !== null);
       else await courier.need([...wanted]);
     } catch (error) {
       this.#lose(wish, error instanceof Error ? error.message : String(error));
     }
     wish.isAsked = false;
+    this.#dues--;
     if (this.#isClosed) return;
     this.#pump();
     // Meanwhile the reader may be elsewhere, and that not be known yet: what was asked for is shown on the way.
@@ -311,7 +358,10 @@ export class Session extends Emitter {
   #cut(message) {
     if (this.#isClosed) return;
     try {
-      const spans = this.#open.courier.cut(message);
+      const { ahead, courier } = this.#open;
+      const spans = courier.cut(message);
+      ahead.forget();
+      this.#plan = null;
       this.#wish = this.#wishFor(this.point);
       this.emit("stale", spans);
     } catch (error) {

@@ -44,6 +44,7 @@
  * @property {Parameters} parameters all of them
  * @property {number[]} times
  * @property {string[]} channels
+ * @property {boolean} [plays] whether time runs: then the ticks round a time will do
  *
  * @typedef {object} Answer
  * @property {number} seq of the ask

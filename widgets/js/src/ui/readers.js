@@ -14,7 +14,9 @@ import { allowed, fitted } from "./limits.js";
  *
  * @typedef {object} SessionLike what a reader needs of a Session
  * @property {Point} point
- * @property {(patch: { time?: number, parameters?: Record<string, Value> }) => void} set
+ * @property {import("../core/aheads.js").Hand | null} hand
+ * @property {(patch: { time?: number, parameters?: Record<string, Value> },
+ *   hand?: import("../core/aheads.js").Hand | null) => void} set
  * @property {(name: any, listener: (payload: any) => void) => () => void} on
  *
  * @typedef {object} ClockLike what a reader needs of a Clock
@@ -25,6 +27,8 @@ import { allowed, fitted } from "./limits.js";
  * @property {boolean} loop
  * @property {boolean} paused
  * @property {string} playing
+ * @property {number} pace
+ * @property {(seconds: number) => number | null} after
  * @property {(settings: any) => void} configure
  * @property {() => void} play
  * @property {() => void} pause
@@ -206,7 +210,7 @@ export class Reader extends Emitter {
   #tick(value) {
     const { playing } = this.clock;
     this.#ticking = true;
-    if (playing === "time") this.session.set({ time: value });
+    if (playing === "time") this.session.set({ time: value }, this.clock);
     else this.session.set({ parameters: this.#fitted({ [playing]: value }) });
     this.#ticking = false;
   }
@@ -276,7 +280,7 @@ export class Reader extends Emitter {
       busy = true;
       const { time, parameters } = from.session.point;
       const shared = Object.entries(parameters).filter(([name]) => to.parameter(name));
-      to.session.set({ time, parameters: Object.fromEntries(shared) });
+      to.session.set({ time, parameters: Object.fromEntries(shared) }, from.session.hand);
       busy = false;
     };
     pass(leader, this);

@@ -60,6 +60,19 @@ test("a loop goes round, without losing what was past the end", () => {
   assert.deepEqual(rounded(ticks), [0.1, 0.3]);
 });
 
+test("it knows where it will be, as long as it runs", () => {
+  const { clock, pass } = manual();
+  clock.speed = 2;
+  assert.equal(clock.after(0.1), null);
+  clock.play();
+  assert.deepEqual([clock.pace, ...rounded([0.1, 0.4, 0.6].map((s) => Number(clock.after(s))))], [2, 0.2, 0.8, 1]);
+  clock.loop = true;
+  assert.deepEqual(rounded([0.1, 0.4, 0.6].map((s) => Number(clock.after(s)))), [0.2, 0.8, 0.2]);
+  pass(0.1);
+  clock.pause();
+  assert.equal(clock.after(0.1), null);
+});
+
 test("it runs backwards as well", () => {
   const { clock, ticks, pass } = manual();
   clock.speed = -1;

@@ -39,6 +39,7 @@ export function manifest(parameters, more = {}) {
  */
 export class FakeSession extends Emitter {
   /** @type {any[]} */ sets = [];
+  /** What moved it last. @type {any} */ hand = null;
 
   /** @param {Manifest} of */
   constructor(of) {
@@ -46,8 +47,9 @@ export class FakeSession extends Emitter {
     this.point = { time: of.point.time, parameters: { ...of.point.parameters } };
   }
 
-  /** @param {{ time?: number, parameters?: Record<string, any> }} patch */
-  set({ time = this.point.time, parameters = {} }) {
+  /** @param {{ time?: number, parameters?: Record<string, any> }} patch @param {any} [hand] */
+  set({ time = this.point.time, parameters = {} }, hand = null) {
+    this.hand = hand;
     const next = { time, parameters: { ...this.point.parameters, ...parameters } };
     if (JSON.stringify(next) === JSON.stringify(this.point)) return;
     this.sets.push(next);
