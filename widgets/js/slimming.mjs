@@ -1,4 +1,5 @@
-// What of three.js the viewer does not use stays out of the bundle: a plugin for esbuild.
+// What of three.js the viewer does not use stays out of the bundle, and so does the white space of programs and styles:
+// a plugin for esbuild.
 //
 // three.js keeps all its programs in tables, so no bundler can tell which of them are unused. We can: surfaces are
 // MeshPhongMaterial, everything else brings its own program, and there is no headset and no environment map.
@@ -95,6 +96,12 @@ export function shorten(text) {
   });
 }
 
+/** Style sheets without comments and indentation, in the templates of a module or bare. @param {string} text */
+export function tighten(text) {
+  return text.replace(/\/\*[^]*?\*\//g, "").replace(/\s+/g, " ").replace(/ ?([{};,]) ?/g, "$1")
+    .replace(/: /g, ":").replace(/;}/g, "}").trim();
+}
+
 /** The plugin. @returns {import("esbuild").Plugin} */
 export function slim() {
   return {
@@ -107,6 +114,9 @@ export function slim() {
       });
       build.onLoad({ filter: /[\\/]src[\\/]render[\\/].*\.js$/ }, async ({ path }) => ({
         contents: shorten(await readFile(path, "utf8")),
+      }));
+      build.onLoad({ filter: /[\\/]src[\\/]ui[\\/][a-z-]*styles\.js$/ }, async ({ path }) => ({
+        contents: (await readFile(path, "utf8")).replace(/`[^`]*`/g, tighten),
       }));
     },
   };

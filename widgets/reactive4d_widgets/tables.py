@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from reactive4d_widgets.blends import blended
+from reactive4d_widgets.chronicles import chronicled
 from reactive4d_widgets.coverings import Coverer
 from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.grades import described, readers_of
@@ -123,6 +124,10 @@ def tabulated(
     ]
     sizes: dict[str, int] = {}
     written = [_written(plan, segment, sizes) for segment in segments]
+    chronicle = chronicled(plan, graded)
+    if chronicle is not None:
+        written += chronicle.segments
+        sizes.update({one["channel"]: len(compact(one)) for one in chronicle.segments})
     travelling = packed(written)
     if travelling is not written:
         share = len(travelling["data"]) / travelling["bytes"]
@@ -149,6 +154,7 @@ def tabulated(
         "values": [_value(plan, channel) for channel in plan.values],
         "point": _point(plan, graded),
         "options": dict(options or {}),
+        **({} if chronicle is None else {"cells": chronicle.cells}),
     }
     problems = [
         Problem(segment.channel, segment.lo, segment.hi, segment.where, segment.error)

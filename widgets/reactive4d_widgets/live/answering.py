@@ -22,7 +22,9 @@ from reactive4d.references import reference
 from reactive4d.signals.facade import Signal
 from reactive4d_widgets.channels import at_rest, painted
 from reactive4d_widgets.creases import split
+from reactive4d_widgets.chronicles import CHANNEL
 from reactive4d_widgets.live.records import Record
+from reactive4d_widgets.doings import Doings
 from reactive4d_widgets.live.vaults import Vault
 from reactive4d_widgets.live.witnesses import Witness, witness
 from reactive4d_widgets.seats import Channel
@@ -97,6 +99,14 @@ class Answerer:
         return self._resting(channel, self._say(channel, place.t, place), place)
 
     def _is_instant(self, interval: Interval, t: float) -> bool:
+    def doing(self, doings: Doings, place: Place) -> Record:
+        """What the engine does now with the scene's cells, for the picture at a place: for who asks, and nobody else."""
+        cell = self._cell(place.t) if place.is_running else None
+        lo, hi = (place.t, math.nextafter(place.t, math.inf)) if cell is None else cell
+        where = {name: listed(wire) for name, wire in place.wires.items()}
+        track = constant(doings.ask(lo, place.values))
+        return Record(CHANNEL, lo, hi, where, {"channel": CHANNEL, "when": [lo, hi], "where": where, "track": track})
+
         return interval.stop - t < SHORT * self.span.step
 
     def _is_brief(self, interval: Interval, t: float) -> bool:

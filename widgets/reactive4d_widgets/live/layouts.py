@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from reactive4d.signals.facade import Signal
+from reactive4d_widgets.doings import Doings
 from reactive4d_widgets.live.answering import Answerer
 from reactive4d_widgets.live.tracking import Tracking, touch
 from reactive4d_widgets.live.vaults import Vault
@@ -21,6 +22,7 @@ class Layout:
         channels: all of them by name.
         answerer: who asks them.
         tracking: the tracks that were read off.
+        doings: tells what is done with the scene's cells; None where it names none.
     """
 
     def __init__(self, thing: Any, times: Any, vault: Vault) -> None:
@@ -29,16 +31,17 @@ class Layout:
         self.answerer = Answerer(self.plan.span, self.plan.keys, vault)
         signals = _structure(self.plan.seats)
         scene = self.plan.subject.scene
-        self._items, self._named = tuple(scene.items()), tuple(scene.signals)
+        self._items, self._named, self._cells = tuple(scene.items()), tuple(scene.signals), scene.cells
         for signal in signals:
             touch(signal, self.plan.span.start, self.plan.asker.base)
+        self.doings = Doings(scene) if scene.cells else None
         self.tracking = Tracking()
         self.tracking.watch(signals)
 
     def is_outdated(self) -> bool:
         """Whether the scene holds others, or names others."""
         scene = self.plan.subject.scene
-        return tuple(scene.items()) != self._items or tuple(scene.signals) != self._named
+        return (tuple(scene.items()), tuple(scene.signals), scene.cells) != (self._items, self._named, self._cells)
 
     def sketch(self) -> Any:
         """What a viewer cannot see change without opening again."""
@@ -47,6 +50,7 @@ class Layout:
             [channel.name for channel in self.plan.values],
             [control.description() for control in self.plan.subject.controls],
             (self.plan.span, self.plan.keys),
+            list(self._cells),
         )
 
 

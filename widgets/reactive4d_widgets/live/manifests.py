@@ -71,6 +71,7 @@ def described(
     frame: Frame,
     *,
     revision: int,
+    cells: Mapping[str, Any] | None = None,
     name: str | None = None,
     title: str | None = None,
     options: Mapping[str, Any] | None = None,
@@ -82,6 +83,7 @@ def described(
         shown: what this reader is shown: their point, their bounds.
         frame: what holds the scene.
         revision: of the model.
+        cells: the boxes beside the picture, and the arrows between them; None where there are none.
         name: how the figure is called; otherwise as the subject is.
         title: for a person to read.
         options: how it is shown at first.
@@ -109,6 +111,7 @@ def described(
             else {"position": list(opening.camera[0]), "target": list(opening.camera[1])},
         },
         "options": dict(options or {}),
+        **({} if cells is None else {"cells": dict(cells)}),
     }
 
 

@@ -15,6 +15,8 @@ from reactive4d.engine.engines import engine
 from reactive4d.engine.frames import LOCK, here
 from reactive4d.illustrations import Subject, subject
 from reactive4d.model.reaches import key_times
+from reactive4d_widgets.charts import chart
+from reactive4d_widgets.chronicles import CHANNEL
 from reactive4d_widgets.live.answering import Place
 from reactive4d_widgets.live.heralds import herald
 from reactive4d_widgets.live.layouts import Layout
@@ -107,6 +109,16 @@ class Model:
             found = self._frame = framed(self.thing, times=self.times)
         return found
 
+    @property
+    def cells(self) -> dict[str, Any] | None:
+        """The scene's cells as boxes with arrows; None where it names none."""
+        doings = self._layout.doings
+        if doings is None:
+            return None
+        opening = self.subject
+        doings.ask(opening.point.time, opening.values)  # so that it is known who asks whom
+        return chart(opening.scene)
+
     def told(self, t: float, values: Mapping[str, Any]) -> str:
         """What is to be seen, as a text.
 
@@ -142,7 +154,8 @@ class Model:
         Returns:
             The revision, and records; of a channel that nobody knows an error.
         """
-        wanted = [(name, place) for place in places for name in channels]
+        # What is done for a picture is found out before its parts are asked for.
+        wanted = [(name, place) for place in places for name in sorted(channels, key=lambda name: name != CHANNEL)]
         found: dict[int, Record] = {}
         for _ in range(PATIENCE):
             self.refresh()
@@ -167,6 +180,8 @@ class Model:
 
     def _record(self, name: str, place: Place) -> Record:
         layout = self._layout
+        if name == CHANNEL and layout.doings is not None:
+            return layout.answerer.doing(layout.doings, place)
         channel = layout.channels.get(name)
         if channel is None:
             return _unknown(name)
@@ -253,6 +268,8 @@ class Model:
     def _publish(self, stales: Stales) -> None:
         if stales:
             self.revision += 1
+            if self._layout.doings is not None:
+                stales.add(CHANNEL, [(-INF, INF)])
             for reader in self._readers:
                 reader.tell(self.revision, stales)
 

@@ -120,6 +120,7 @@ class Reader:
             self._shown,
             self.model.frame,
             revision=self.model.revision,
+            cells=self.model.cells,
             name=self.name,
             title=self.title,
             options=self.options,

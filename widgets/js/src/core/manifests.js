@@ -14,7 +14,7 @@ import { plain } from "./segments.js";
  * @typedef {import("./types.js").Value} Value
  */
 
-const MOST = { nodes: 200_000, parameters: 1_000, values: 10_000, handles: 1_000 };
+const MOST = { nodes: 200_000, parameters: 1_000, values: 10_000, handles: 1_000, cells: 100 };
 const KINDS = /** @type {const} */ (["number", "integer", "boolean", "select", "color", "range", "xy"]);
 const PICTURES = /** @type {const} */ (["never", "instead", "always"]);
 const GRADES = /** @type {const} */ (["free", "stops", "fixed"]);
@@ -49,6 +49,7 @@ export function readManifest(value, path = "manifest") {
     point: readPoint(at("point") ?? {}, parameters, times, `${path}.point`),
     options: readOptions(at("options") ?? {}, `${path}.options`),
     pictures: oneOf(at("pictures") ?? "never", `${path}.pictures`, PICTURES),
+    cells: at("cells") === undefined ? null : readCells(at("cells"), `${path}.cells`),
   });
 }
 
@@ -173,6 +174,25 @@ function readHandle(value, path) {
     kind: oneOf(own(given, "kind"), `${path}.kind`, /** @type {const} */ (["axis", "plane", "circle"])),
     axes: names("axes"),
   };
+}
+
+/** @param {any} value @param {string} path @returns {Manifest["cells"]} */
+function readCells(value, path) {
+  const given = object(value, path);
+  const boxes = list(own(given, "boxes"), `${path}.boxes`, MOST.cells).map((one, i) => {
+    const at = `${path}.boxes[${i}]`;
+    const box = object(one, at);
+    return { name: name(own(box, "name"), at), at: row(own(box, "at"), at, 2) };
+  });
+  const arrows = list(own(given, "arrows"), `${path}.arrows`, MOST.cells ** 2).map((one, i) => {
+    const at = `${path}.arrows[${i}]`;
+    const [from, to, ...via] = list(one, at, MOST.cells + 2, 2);
+    for (const end of [from, to]) whole(end, at, 0, boxes.length - 1);
+    return { from, to, via: via.map((point) => row(point, at, 2)) };
+  });
+  const moves = own(given, "moves") === undefined ? null : list(own(given, "moves"), `${path}.moves`, MOST.parameters)
+    .map((one) => list(one, `${path}.moves`, MOST.parameters).map((each) => name(each, `${path}.moves`)));
+  return { boxes, arrows, moves };
 }
 
 /** @param {any} value @param {string} path @returns {Required<Eye>} */

@@ -144,6 +144,12 @@
  * @property {Point} point where the figure opens
  * @property {Options} options
  * @property {"never"|"instead"|"always"} pictures whether a server draws: for who cannot, or for everybody
+ * @property {Cells|null} cells signals that are shown at work beside the picture
+ *
+ * @typedef {object} Cells boxes, by columns and rows, and who asks whom
+ * @property {readonly {name: string, at: number[]}[]} boxes
+ * @property {readonly {from: number, to: number, via: number[][]}[]} arrows
+ * @property {readonly (readonly string[])[]|null} moves the parameters that were moved for `#cells.0` …; null: live
  *
  * @typedef {{format: string, name: string, [name: string]: any}} WireManifest
  *
@@ -234,6 +240,7 @@
  * @property {ReadonlyMap<string, NodeState>} nodes in the order of the scene; the same map if none changed
  * @property {ReadonlyMap<string, Value>} values
  * @property {readonly Problem[]} problems
+ * @property {readonly (string|null)[]} cells a letter for each box: as time went on, then for each of the moves
  *
  * @typedef {{start: number, stop: number, state: "remembered"|"stale"|"computing"|"missing"}} Span
  */

@@ -1,6 +1,6 @@
 /** All of a figure that is watched: its nodes, and its named values. */
 import { Cell, isSame } from "./cells.js";
-import { readValue } from "./channels.js";
+import { READERS, readValue } from "./channels.js";
 import { NamedMap } from "./maps.js";
 import { Mixer } from "./mixing.js";
 import { NodeWatch } from "./nodes.js";
@@ -21,6 +21,8 @@ export class Watch {
   #mixer = new Mixer();
   /** @type {Cell<any>[]} */
   #values;
+  /** What was done for the picture. @type {Cell<string>[]} */
+  #cells;
   /** @type {string[]} */
   #names;
   #index;
@@ -41,6 +43,9 @@ export class Watch {
     this.#index = NamedMap.index(manifest.nodes.map(({ name }) => name));
     this.#names = manifest.values.map(({ name }) => name);
     this.#values = this.#names.map((name) => new Cell(`#values.${name}`, readValue));
+    const moves = manifest.cells?.moves ?? [];
+    const channels = manifest.cells ? ["#cells", ...moves.map((_names, k) => `#cells.${k}`)] : [];
+    this.#cells = channels.map((channel) => new Cell(channel, READERS.text));
   }
 
   /** The channels in view, as far as they are known. */
@@ -59,7 +64,7 @@ export class Watch {
     const scope = { ...lack, store: this.store, blobs: this.blobs, mixer: this.#mixer };
     let isComplete = true;
     for (const watch of this.watches) if (!watch.update(scope, t, parameters)) isComplete = false;
-    for (const cell of this.#values) {
+    for (const cell of [...this.#cells, ...this.#values]) {
       cell.update(this.store, t, parameters);
       if (cell.state !== "missing" || scope.isRefused(cell.channel)) continue;
       scope.missing.push(cell.channel);
@@ -72,7 +77,8 @@ export class Watch {
    * @param {Parameters} parameters @returns {Snapshot} */
   snapshot(revision, time, parameters) {
     const [nodes, values, problems] = [this.#gatherNodes(), this.#gatherValues(), this.#gatherProblems()];
-    return Object.freeze({ revision, time, parameters, nodes, values, problems });
+    const cells = this.#cells.map(({ state, value }) => (state === "value" ? value : null));
+    return Object.freeze({ revision, time, parameters, nodes, values, problems, cells });
   }
 
   /** The same map as long as no node has changed. */

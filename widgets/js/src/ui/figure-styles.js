@@ -1,5 +1,6 @@
 /** A figure: the picture first, then one quiet bar, then the parameters in lines. */
 
+import { cellStyles } from "./cell-styles.js";
 import { controlStyles } from "./control-styles.js";
 import { DARK, LIGHT } from "./palettes.js";
 
@@ -193,6 +194,7 @@ select {
   background: var(--wash); }
 
 ${controlStyles}
+${cellStyles}
 
 /* Full screen, paper, and colours that the reader forces */
 .life:fullscreen { display: flex; flex-direction: column; background: var(--paper); padding: 0 16px 10px; }

@@ -1,6 +1,7 @@
 /** A figure that lives: session, clock, picture, player, controls and handles, wired together. */
 
 import { carried, extentsOf, ORIGIN } from "./anchors.js";
+import { Cells } from "./cells.js";
 import { Controls } from "./controls.js";
 import { make, reducedMotion, setAll, setText } from "./elements.js";
 import { timeText } from "./formats.js";
@@ -71,10 +72,12 @@ export class Life {
       learn: (node, others) => this.#learn(node, others),
     });
     this.picture.over.append(this.handles.element);
-    this.element = make("div", { class: "life" }, [
+    this.cells = this.manifest.cells && new Cells(this.manifest, this.manifest.cells);
+    this.element = make("div", { class: "life", "data-cells": this.cells !== null }, [
       this.picture.element,
       make("div", { class: "bar" }, [this.player.element, this.menu.panel]),
       this.controls.element,
+      this.cells && this.cells.element,
     ]);
     this.#listen();
   }
@@ -147,6 +150,7 @@ export class Life {
     this.#remote?.want(!this.reader.isPlaying());
     if (first) this.#unveil();
     this.picture.fail(snapshot.problems);
+    this.cells?.show(snapshot);
     this.handles.place();
     this.#label();
     this.#strip(false);
@@ -364,6 +368,7 @@ export class Life {
     this.#here();
     for (const off of this.#off) off();
     this.announcer.dispose();
+    this.cells?.dispose();
     this.picture.dispose();
     this.menu.dispose();
     this.reader.dispose();

@@ -79,11 +79,13 @@ export const snapshot = (...states) => ({
   nodes: new Map(states.map((state) => [state.name, state])),
   values: new Map(),
   problems: [],
+  cells: [],
 });
 
 /** @param {Partial<Manifest["options"]>} [options] @returns {Manifest} */
 export const manifest = (options = {}) => ({
   pictures: "never",
+  cells: null,
   format: "reactive4d/1",
   name: "figure",
   title: "",

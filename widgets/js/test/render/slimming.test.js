@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { build } from "esbuild";
-import { shorten, slim } from "../../slimming.mjs";
+import { shorten, slim, tighten } from "../../slimming.mjs";
 import { ball, box } from "../fixtures/shapes.mjs";
 import { FakeCard, FakeElement, page } from "./cards.js";
 import { floats, geometry, manifest, node, other, snapshot } from "./makings.js";
@@ -10,6 +10,12 @@ test("programs lose comments and indentation, and keep their lines", () => {
   const program = "const a = /* glsl */`\n  // why\n  #define A ( 1 )\n  float x = a - - b; /* so */ y = x ;\n`;";
   assert.equal(shorten(program), "const a = /* glsl */`\n#define A ( 1 )\nfloat x=a - - b;y=x;\n`;");
   assert.equal(shorten("const b = ` a // b `;"), "const b = ` a // b `;");
+});
+
+test("style sheets lose comments and indentation, and say the same", () => {
+  const sheet = "\n/* A box */\n.box :is(a, b) > i {\n  margin: 0 -1px; color: var(--ink);\n}\n"
+    + "@media (width > 1px) { a { b: c } }\n";
+  assert.equal(tighten(sheet), ".box :is(a,b) > i{margin:0 -1px;color:var(--ink)}@media (width > 1px){a{b:c}}");
 });
 
 test("what is left of three.js draws everything that there is to draw", async () => {

@@ -19,7 +19,7 @@ export function parameter(name, more = {}) {
 /** @param {Parameter[]} parameters @param {Partial<Manifest>} [more] @returns {Manifest} */
 export function manifest(parameters, more = {}) {
   return {
-    format: "reactive4d/1", name: "pendulum", title: "A pendulum", doc: "", pictures: "never",
+    format: "reactive4d/1", name: "pendulum", title: "A pendulum", doc: "", pictures: "never", cells: null,
     revision: 1,
     times: { start: 0, stop: 10, rate: 30, marks: [0, 2.5, 10], still: false }, parameters, handles: [],
     view: { position: [0, -5, 0], target: [0, 0, 0], up: [0, 0, 1], fov: 30, near: 0.1, far: 100 },
