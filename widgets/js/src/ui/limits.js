@@ -13,6 +13,8 @@ import { digitsOf, fit, stepOf } from "./stepping.js";
  */
 
 const NEEDS = "Changing this needs a live kernel.";
+const HELD = "Held by other settings.";
+const BETWEEN = "This page holds the values at the marks.";
 
 /**
  * @param {Parameter} parameter
@@ -35,7 +37,8 @@ export function allowed(parameter, parameters) {
     stops: stops && within(stops, lo, hi),
     integer: parameter.kind === "integer",
     closed: isHeld(parameter, parameters),
-    why: fixed ? parameter.why || NEEDS : isHeld(parameter, parameters) ? "Held by other settings." : "",
+    why: fixed ? parameter.why || NEEDS : isHeld(parameter, parameters) ? HELD
+      : stops && parameter.kind !== "integer" ? BETWEEN : "",
   };
 }
 

@@ -28,6 +28,12 @@ test("a baked parameter has its stops as long as they lie within its bounds", ()
   assert.equal(fitted(baked, 1.9, allowed(baked, {})), 1.5);
 });
 
+test("where a page holds some numbers of many it says so", () => {
+  const some = { grade: /** @type {const} */ ("stops"), stops: [8, 12] };
+  assert.deepEqual(pick(allowed(parameter("radius", some), {})), [false, "This page holds the values at the marks."]);
+  assert.deepEqual(pick(allowed(parameter("teeth", { ...some, kind: "integer" }), {})), [false, ""]);
+});
+
 test("only numbers between two bounds can play", () => {
   assert.equal(canPlay(parameter("x"), allowed(parameter("x"), {})), true);
   const open = parameter("x", { bounds: [0, null] });
