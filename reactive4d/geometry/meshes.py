@@ -113,7 +113,8 @@ class Mesh:
         """
         m = _affine(matrix)
         linear = m[:3, :3]
-        mirrors = bool(np.linalg.det(linear) < 0.0)
+        with np.errstate(over="ignore", invalid="ignore"):
+            mirrors = bool(np.linalg.det(linear) < 0.0)
         attributes = dict(self.attributes)
         if "normals" in attributes:
             # Cofactors instead of the inverse: they exist for a flattened mesh as well.
@@ -367,7 +368,9 @@ def _points(value: ArrayLike) -> Points:
     if points.ndim != 2 or points.shape[1] != 3:
         raise ShapeError(f"points: expected the shape (V, 3), got {points.shape}")
     # The sum is finite nearly always, and four times faster to know than each point.
-    if not np.isfinite(points.sum(dtype=np.float64)):
+    with np.errstate(invalid="ignore"):
+        total = points.sum(dtype=np.float64)
+    if not np.isfinite(total):
         row = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise ShapeError(f"points[{row}]: expected finite numbers, got {points[row].tolist()}")
     return points

@@ -381,7 +381,11 @@ def transform_points(matrix: Matrix, points: NDArray[Any]) -> NDArray[Any]:
     >>> transform_points(scaling((1, 2, 3)), np.ones((1, 3), np.float32))
     array([[1., 2., 3.]], dtype=float32)
     """
-    rows = _rows(points)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large for its type is infinite
+        return _carried(matrix, _rows(points))
+
+
+def _carried(matrix: Matrix, rows: NDArray[Any]) -> NDArray[Any]:
     through = carry(matrix, rows.dtype)
     if through is None:
         return rows if rows.base is None and not rows.flags.writeable else freeze(rows.copy())

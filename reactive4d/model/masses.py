@@ -44,10 +44,12 @@ def _determinant(matrix: Array) -> float:
 def area(obj: "Object") -> float:
     """In closed form while angles are kept: then a transform scales it by the square of its factor."""
     matrix = obj.matrix.now()[:3, :3]
-    square = matrix.T @ matrix
-    factor = float(np.trace(square)) / 3.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        square = matrix.T @ matrix
+        factor = float(np.trace(square)) / 3.0
+        keeps = np.allclose(square, factor * np.eye(3), rtol=0.0, atol=1e-12 * max(factor, 1e-300))
     method = closed_form(obj, "area")
-    if method is None or not np.allclose(square, factor * np.eye(3), rtol=0.0, atol=1e-12 * max(factor, 1e-300)):
+    if method is None or not keeps:
         return meshes.area(obj.mesh.now())
     return float(method.now() * factor)
 

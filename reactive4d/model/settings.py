@@ -46,6 +46,7 @@ __all__ = [
 T = TypeVar("T")
 V = TypeVar("V")
 Array = NDArray[np.float64]
+FEW = 16  # numbers that are added one by one
 # What may be assigned to a vector: numbers, a signal of them, or numbers and signals of numbers.
 Numbers: TypeAlias = ArrayLike | Signal[Any] | Sequence[float | Signal[Any]]
 AXES: dict[str, tuple[float, float, float]] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -344,8 +345,7 @@ class Vector(Typed[Array, Numbers | None]):
         ):
             error = self.refused(self._expected(), value)
             raise hint(error, f"keys({{0: {self._example()}, …}}) needs as many numbers per key")
-        total = float(array.sum())
-        if total - total != 0.0 and not np.isfinite(array).all():
+        if not _is_finite(array):
             raise self.refused(f"{self._expected()}, all finite", value)
         if self.low > -math.inf and array.size and float(array.min()) < self.low:
             raise ShapeError(f"{self.path}: expected numbers of at least {self.low:g}, got {_listed(array)}")
@@ -375,6 +375,16 @@ class Vector(Typed[Array, Numbers | None]):
 
     def _example(self) -> str:
         return f"({', '.join(['0'] * (self.shape[-1] or 3))})"
+
+
+def _is_finite(array: Array) -> bool:
+    """Whether all numbers are. The sum says so nearly always, and few are added faster one by one."""
+    if array.size <= FEW:
+        total = sum(array.ravel().tolist())
+    else:
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = float(array.sum())
+    return total - total == 0.0 or bool(np.isfinite(array).all())
 
 
 def _listed(array: Array) -> str:

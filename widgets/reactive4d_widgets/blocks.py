@@ -12,6 +12,7 @@ from reactive4d.geometry.transforms import transform_points
 from reactive4d.illustrations import subject as subject_of
 from reactive4d.model.drawings import Lines, Points
 from reactive4d.model.nodes import Node
+from reactive4d_widgets.distances import refuse_far
 
 if TYPE_CHECKING:
     import pyvista as pv
@@ -69,23 +70,24 @@ def blocks(
     return _together({name: node for name, node in frame.items() if name in given.scene}, make)
 
 
-def _together(nodes: Mapping[str, Node], make: Callable[[Node], Any]) -> "pv.MultiBlock":
+def _together(nodes: Mapping[str, Node], make: Callable[[str, Node], Any], above: str = "") -> "pv.MultiBlock":
     import pyvista as pv
 
     found = pv.MultiBlock()
     for name, node in nodes.items():
         if node.members:
-            found.append(_together(node.members, make), name)
+            found.append(_together(node.members, make, f"{above}{name}/"), name)
         else:
-            found.append(make(node) if node.visible else None, name)
+            found.append(make(above + name, node) if node.visible else None, name)
     return found
 
 
-def _placed(node: Node) -> Any:
+def _placed(name: str, node: Node) -> Any:
+    refuse_far(name, node)
     return _data(node, node.matrix)
 
 
-def _local(node: Node) -> Any:
+def _local(name: str, node: Node) -> Any:
     data = _data(node, np.eye(4))
     if data is not None:
         data.field_data["matrix"] = node.matrix

@@ -72,8 +72,10 @@ def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Sh
         reads.update(dict.fromkeys(answer.parameters))
         if answer.interval.stop - span.tick(k) < span.step:
             moving.append(k)
-        still = answer.value if still is None else still
-        probes += [_arrays(channel, answer.value)] if answer.value is not None else []
+        arrays = _arrays(channel, answer.value)
+        if arrays is not None:
+            still = answer.value if still is None else still
+            probes.append(arrays)
         if answer.interval.stop > span.stop:
             break
     cells = math.prod([len(asker.stops[name]) for name in reads if name in asker.stops])
@@ -85,21 +87,25 @@ def _share(plan: Plan, coverer: Coverer, channel: Channel, seen: set[int]) -> Sh
             return None
         seen.add(id(still))
     count = max(1, round(len(ticks) * len(moving) / len(few)))
-    if moving and count > 1:
+    if len(moving) > 1 and len(probes) == len(ticks):
+        # So few that all of them are known.
+        several = _several(probes)
+        size = sum(_bytes(probes[i : i + several], probes) for i in range(0, len(probes), several))
+    elif moving and count > 1:
         places = [moving[0], moving[len(moving) // 2], moving[-1]]
         size = sum(_series(plan, channel, k, count, probes) for k in places) // len(places)
     else:
-        size = _bytes([_arrays(channel, still)])
+        size = _bytes(probes[:1])
     return Share(channel.name, cells, count, cells * size)
 
 
 def _series(plan: Plan, channel: Channel, k: int, count: int, probes: list[list[Any]]) -> int:
     """What some ticks take, as a few that follow each other tell; each later one takes what the last of them took."""
-    several = arrays_of_a_chunk(max([array.nbytes for array in probes[0]], default=0))
+    several = _several(probes)
     last, few = plan.span.count + 1, min(FEW, several)
     some = range(max(min(k, last - few), 0), last)[:few]
     answers = [plan.asker.ask(channel.signal, plan.span.tick(i)) for i in some]
-    values = [_arrays(channel, answer.value) for answer in answers if answer.value is not None]
+    values = [arrays for arrays in [_arrays(channel, answer.value) for answer in answers] if arrays is not None]
     if not values:
         return 0
     sizes = [_bytes(values[: i + 1], probes) for i in range(len(values))]
@@ -111,12 +117,21 @@ def _series(plan: Plan, channel: Channel, k: int, count: int, probes: list[list[
     return count // several * packed(several) + packed(count % several)
 
 
-def _arrays(channel: Channel, value: Any) -> list[Any]:
+def _several(probes: list[list[Any]]) -> int:
+    """How many of these are packed together."""
+    return arrays_of_a_chunk(max([array.nbytes for array in probes[0]], default=0))
+
+
+def _arrays(channel: Channel, value: Any) -> list[Any] | None:
+    """What an answer has to pack; None where there is no answer, or one that is refused."""
+    if value is None:
+        return None
     if channel.what == "topology":
         return [np.asarray(part, dtype=np.uint32) for part in value[:1] if part is not None] * 2  # faces, and edges
     if channel.what == "paints":
         return [np.asarray(part, dtype=np.float32) for part in value if part is not None]
-    return [np.asarray(value, dtype=np.float32)]
+    points = np.asarray(value, dtype=np.float32)
+    return [points] if np.isfinite(points).all() else None
 
 
 def _bytes(several: list[list[Any]], probes: list[list[Any]] | None = None) -> int:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from reactive4d.geometry.transforms import inverse
 from reactive4d.model.nodes import Node
 from reactive4d.signals.colors import srgb_to_linear
+from reactive4d_widgets.distances import refuse_far
 from reactive4d_widgets.placements import parts_of, upright
 from reactive4d_widgets.stage.shapes import paints, shape, stroke
 
@@ -58,6 +59,7 @@ class Writer:
         """Add a node of a frame; those of a group come after it."""
         if not node.visible:
             return
+        refuse_far(name, node)
         parent, given = self._parent(name)
         local = inverse(given) @ node.matrix if abs(np.linalg.det(given)) > 1e-300 else node.matrix
         parts = parts_of(local)

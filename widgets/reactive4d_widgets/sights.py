@@ -13,6 +13,7 @@ from reactive4d.geometry.transforms import transform_points
 from reactive4d.model.drawings import Points
 from reactive4d.model.nodes import Node
 from reactive4d_widgets.alternatives import Sight, described
+from reactive4d_widgets.distances import is_near
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Seat
 from reactive4d_widgets.views import View, holding, outermost
@@ -57,7 +58,7 @@ def _node(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any]) -> Node
         points = None if drawn == "label" else _said(plan, seat, "points", t, assigned)
     except _UnseenError:
         return None
-    if not np.isfinite(matrix).all() or (points is not None and not np.isfinite(points).all()):
+    if not is_near(matrix) or (points is not None and not np.isfinite(points).all()):
         return None
     shown = None if points is None else Points(points)
     kind = "label" if drawn == "label" else seat.kind
@@ -112,5 +113,7 @@ def _middle(plan: Plan, seat: Seat, t: float, assigned: Mapping[str, Any]) -> Ar
     matrix = _said(plan, seat, "matrix", t, assigned)
     if points is None or not len(points):
         return matrix[:3, 3]
+    if not np.isfinite(points).all():
+        raise _UnseenError
     middle = (points.min(axis=0).astype(np.float64) + points.max(axis=0)) / 2.0
     return transform_points(matrix, middle.reshape(1, 3))[0]

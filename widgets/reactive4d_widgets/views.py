@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.errors import ShapeError, hint
 from reactive4d.geometry.meshes import Mesh
 from reactive4d.geometry.transforms import direction as unit
 from reactive4d.geometry.transforms import look_at, transform_points
 from reactive4d.model.frames import Frame
 from reactive4d.model.nodes import Node
+from reactive4d_widgets.distances import refuse_far
 
 __all__ = ["View", "bounds_of", "camera_of", "camera_view", "holding", "instants", "outermost", "view_of"]
 
@@ -106,9 +108,13 @@ def holding(
     eye = turn @ ((right - left) / 2.0, (above - below) / 2.0, ez)
     far = ez - float(z.min())
     distance = ez - (float(z.max()) + float(z.min())) / 2.0
+    target = eye - turn[:, 2] * distance
+    if not np.linalg.norm(eye - target - turn[:, 2] * distance) < 0.01 * distance:
+        error = ShapeError(f"what is drawn lies {np.abs(found).max():g} m from the origin, and is too small for that")
+        raise hint(error, "so far away, numbers do not tell its places apart: bring it nearer, or let it be larger")
     return View(
         position=_three(eye),
-        target=_three(eye - turn[:, 2] * distance),
+        target=_three(target),
         up=unit(up),
         fov=float(fov),
         near=distance / 100.0,
@@ -161,10 +167,11 @@ def outermost(frames: Iterable[Frame]) -> Array:
     found: list[Array] = []
     known: dict[int, Node] = {}  # what does not change from frame to frame is looked at once
     for frame in frames:
-        for node in frame.values():
+        for name, node in frame.items():
             if id(node) in known:
                 continue
             known[id(node)] = node
+            refuse_far(name, node)
             if node.primitive == "label":
                 found.append(np.array([node.matrix[:3, 3]]))
             if node.primitive not in ("mesh", "lines", "points"):

@@ -75,13 +75,14 @@ def deform(
            [-1.,  0.,  6.]], dtype=float32)
     """
     run = _Run(points, weights)
-    if before is not None:
-        run.carry(before)
-    for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
-        run.go(step, given)
-    if after is not None:
-        run.carry(after)
-    return run.finish()
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large for its type is infinite
+        if before is not None:
+            run.carry(before)
+        for step, given in zip(steps, (None,) * len(steps) if extents is None else extents, strict=True):
+            run.go(step, given)
+        if after is not None:
+            run.carry(after)
+        return run.finish()
 
 
 def deform_each(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: Point | None = None) -> NDArray[Any]:
@@ -107,9 +108,10 @@ def deform_each(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: Po
            [ 1. ,  0. ,  4. ]], dtype=float32)
     """
     run = _Run(points, None)
-    for number, act in enumerate(acts):
-        origin = _went(run, act, origin, is_last=number + 1 == len(acts))
-    return run.finish()
+    with np.errstate(over="ignore", invalid="ignore"):
+        for number, act in enumerate(acts):
+            origin = _went(run, act, origin, is_last=number + 1 == len(acts))
+        return run.finish()
 
 
 def origin_after(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: Point | None = None) -> Point:
@@ -121,8 +123,9 @@ def origin_after(points: NDArray[Any], acts: Sequence[Maker | Matrix], origin: P
     array([2., 0., 4.])
     """
     run = _Run(points, None)
-    for act in acts:
-        origin = _went(run, act, origin, is_last=False)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for act in acts:
+            origin = _went(run, act, origin, is_last=False)
     return _ZERO if origin is None else origin
 
 
@@ -168,7 +171,8 @@ def measured(points: NDArray[Any], row: list[float]) -> Extent:
     (5.0, 11.0)
     """
     rows = _rows(points)
-    return _measured(rows, _Gauge(row, rows.dtype)).extent
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _measured(rows, _Gauge(row, rows.dtype)).extent
 
 
 def _measured(rows: NDArray[Any], gauge: "_Gauge") -> "_Gauge":

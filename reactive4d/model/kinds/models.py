@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
 from reactive4d.geometry.meshes import Mesh
+from reactive4d.geometry.sizes import singles
 from reactive4d.model.drawings import Lines
 from reactive4d.model.objects import Object
 from reactive4d.model.settings import Held, Text
@@ -102,9 +103,10 @@ def _lines(value: Any) -> Lines:
     """Lines whose points are finite, and which join points that are there."""
     if not isinstance(value, Lines):
         raise hint(ShapeError(f"Wire.source: expected Lines, got {value!r}"), "r4.Lines([(0, 0, 0), (1, 0, 0)])")
-    points = np.array(value.points, dtype=np.float32)
-    if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
-        raise ShapeError(f"Wire.source: points: expected finite (N, 3), got an array of shape {points.shape}")
+    given = np.asarray(value.points)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ShapeError(f"Wire.source: points: expected finite (N, 3), got an array of shape {given.shape}")
+    points = singles(given, "Wire.source: points")
     pairs = None if value.lines is None else np.array(value.lines, dtype=np.int32).reshape(-1, 2)
     for number in [] if pairs is None or not len(pairs) else [int(pairs.min()), int(pairs.max())]:
         if not 0 <= number < len(points):
@@ -112,7 +114,7 @@ def _lines(value: Any) -> Lines:
     colors = _colors(value.colors)
     if colors is not None and len(colors) != len(points):
         raise ShapeError(f"Wire.source: colors: expected {len(points)} rows, one for each point, got {len(colors)}")
-    return Lines(freeze(points), None if pairs is None else freeze(pairs), colors)
+    return Lines(points, None if pairs is None else freeze(pairs), colors)
 
 
 class Wire(Object):

@@ -71,6 +71,11 @@ class Body:
         self.corners: NDArray[np.float64] | None = None
 
     @property
+    def node(self) -> Node | None:
+        """What it shows."""
+        return self._node
+
+    @property
     def props(self) -> Iterator[Any]:
         """VTK's actors, in the order in which they are drawn."""
         return (actor.prop for actor in (self._main, self._edges) if actor is not None)

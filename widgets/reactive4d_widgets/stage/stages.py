@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkTexture
 from reactive4d.model.frames import Frame
 from reactive4d.model.nodes import Node
 from reactive4d_widgets.captions import captioned, label_of
+from reactive4d_widgets.distances import refuse_far
 from reactive4d_widgets.lamps import Lamp, light_of
 from reactive4d_widgets.stage import floors
 from reactive4d_widgets.stage.bodies import Body, Look
@@ -162,6 +163,8 @@ class Stage:
                 body = self._bodies[name] = Body(self._look)
                 others = True
             threw = body.caster is not None and body.corners is not None and not body.clear
+            if node is not body.node:
+                refuse_far(name, node)
             touched = body.show(node, colors.get(name))
             if touched:
                 self.touched[name] = touched
