@@ -84,9 +84,11 @@ def read(browser: Any) -> Iterator[Callable[..., Any]]:
         live: bool = True,
         size: tuple[int, int] = (1000, 900),
         init: str = "",
+        touch: bool = False,
     ) -> Any:
         forgiven.extend([forgive] if forgive else [])
-        contexts.append(browser.new_context(viewport={"width": size[0], "height": size[1]}))
+        viewport = {"width": size[0], "height": size[1]}
+        contexts.append(browser.new_context(viewport=viewport, has_touch=touch, is_mobile=touch))
         page = contexts[-1].new_page()
         page.add_init_script(f"{COUNTING};{init}")
         home = urlsplit(address).netloc

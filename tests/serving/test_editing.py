@@ -57,6 +57,16 @@ def test_a_copy_is_marked_and_a_reset_leads_back(served, read):
     assert own.get_by_text("Your copy", exact=True).count() == 0
 
 
+def test_where_there_are_no_keys_none_are_named(served, read):
+    """A button shows the copy everywhere; that Ctrl and Enter do is said where there is a keyboard."""
+    address = served(r4.loads(SCRIPT), editable=True).address
+    for touch, is_said in ((False, True), (True, False)):
+        page = read(address, touch=touch, size=(390, 844) if touch else (1000, 900))
+        editor(page)
+        assert page.get_by_role("button", name="Show my copy").is_visible()
+        assert page.get_by_text("Ctrl + Enter").is_visible() == is_said
+
+
 def test_a_mistake_is_shown_at_its_line_and_column(served, read):
     """The caret goes there; the number of the line is marked; what was shown is shown."""
     page = read(served(r4.loads(SCRIPT), editable=True).address, point="t=2")

@@ -18,6 +18,7 @@ from reactive4d_apps.serving.copies import Copy, Original
 from reactive4d_apps.serving.doors import Door, is_loopback, token
 from reactive4d_apps.serving.limits import Limits
 from reactive4d_apps.serving.lines import ASKED, EDITED, Answers, Line
+from reactive4d_apps.serving.porches import Porch
 from reactive4d_apps.serving.workers import Workers
 
 __all__ = ["Hall"]
@@ -65,6 +66,7 @@ class Hall:
     ) -> None:
         self.token = token()
         self.limits = limits or Limits()
+        self.porch = Porch(self.limits)
         self.door = Door(self.token, is_loopback(host), frozenset(origins))
         self.figures = dict(figures)
         self.originals = dict(originals or {})
@@ -186,6 +188,7 @@ class Hall:
             timeout=1.0,
         )
         self._open += 1
+        self.porch.leave(request.protocol)
         line: Line | None = None
         try:
             await socket.prepare(request)

@@ -11,6 +11,8 @@ class Limits:
 
     Attributes:
         readers: figures that are open at one time, all readers together; further ones are turned away.
+        visitors: connections that have no figure open, together; of more, who is silent for longest is cut.
+        silence: seconds after which a connection is cut that has no figure open and asks for nothing.
         asks: of one reader that are under way; a further one is refused.
         message: bytes of one message of a reader; a larger one ends the connection before it has arrived.
         rate: what a reader may send in a second, in messages; a large one counts as several.
@@ -36,6 +38,8 @@ class Limits:
     """
 
     readers: int = 256
+    visitors: int = 256
+    silence: float = 20.0
     asks: int = 2
     message: int = 2 * 2**20
     rate: float = 200.0

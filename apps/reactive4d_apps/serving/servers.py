@@ -46,6 +46,7 @@ class Server:
         self.host = host
         self.port = port
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._web: Any = None
         self._stop = asyncio.Event()
         self._ready = threading.Event()
         self._failed: BaseException | None = None
@@ -146,6 +147,7 @@ class Server:
             await running
             return
         self.port = int(server.port)
+        self.hall.porch.watch(self._web.runner.server)
         self._ready.set()
         stopping = asyncio.ensure_future(self._stop.wait())
         await asyncio.wait([running, stopping], return_when=asyncio.FIRST_COMPLETED)
@@ -155,11 +157,13 @@ class Server:
         await running
 
     def _bind(self, wslink_server: Any) -> None:
+        self._web = wslink_server
         app: web.Application = wslink_server.app
         if len(app.router.resources()):
             raise Reactive4dError("trame serves more than it was told to; this release of it is not safe here")
         # Where there is no socket of its own, nobody told trame how to reach its clients: there are none.
         self._trame.protocol.init(_nobody, _nobody, _nobody)
+        app.middlewares.append(self.hall.porch.attend)
         self.hall.attach(app)
 
 
