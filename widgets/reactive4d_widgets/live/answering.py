@@ -2,7 +2,8 @@
 
 Three kinds of answers. What is lowered exactly is a track for all times and all values of the parameters. What holds
 for a while is a constant with its box. What moves is asked at an instant; or, while time runs, at the two ticks round
-it, between which a viewer goes in a straight line: never across a key, so that what jumps there jumps.
+it, between which a viewer goes in a straight line: never across a key, so that what jumps there jumps. What cannot go
+in a straight line, such as a text or a solid cut from another one, stays as at the tick before while a figure plays.
 """
 
 import math
@@ -21,10 +22,10 @@ from reactive4d.intervals import Interval
 from reactive4d.references import reference
 from reactive4d.signals.facade import Signal
 from reactive4d_widgets.channels import at_rest, painted
-from reactive4d_widgets.creases import split
 from reactive4d_widgets.chronicles import CHANNEL
-from reactive4d_widgets.live.records import Record
+from reactive4d_widgets.creases import split
 from reactive4d_widgets.doings import Doings
+from reactive4d_widgets.live.records import Record
 from reactive4d_widgets.live.vaults import Vault
 from reactive4d_widgets.live.witnesses import Witness, witness
 from reactive4d_widgets.seats import Channel
@@ -98,7 +99,6 @@ class Answerer:
                 return self._made(channel, cell, _body(channel, said), [said], place, is_held=True)
         return self._resting(channel, self._say(channel, place.t, place), place)
 
-    def _is_instant(self, interval: Interval, t: float) -> bool:
     def doing(self, doings: Doings, place: Place) -> Record:
         """What the engine does now with the scene's cells, for the picture at a place: for who asks, and nobody else."""
         cell = self._cell(place.t) if place.is_running else None
@@ -107,6 +107,7 @@ class Answerer:
         track = constant(doings.ask(lo, place.values))
         return Record(CHANNEL, lo, hi, where, {"channel": CHANNEL, "when": [lo, hi], "where": where, "track": track})
 
+    def _is_instant(self, interval: Interval, t: float) -> bool:
         return interval.stop - t < SHORT * self.span.step
 
     def _is_brief(self, interval: Interval, t: float) -> bool:
