@@ -14,6 +14,7 @@ myst_heading_anchors = 3
 html_theme = "reactive4d_book"
 html_show_search_summary = False
 html_show_copyright = False
+html_copy_source = False
 numfig = True
 exclude_patterns = ["build"]
 

@@ -24,10 +24,13 @@ from reactive4d_widgets.displays import has_screen
 __all__ = ["main"]
 
 LIMIT = 20.0  # MB
+INTERRUPTED = 130  # as shells say it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status: 0 when it worked, 1 when the model or the machine refused.
+
+    Ctrl-C while it works is 130; what serves until ctrl-C has worked.
 
     Args:
         arguments: the words after the program's name; by default those that the shell gave.
@@ -61,6 +64,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         said = f"{error.filename}: {error.strerror}" if error.filename else str(error)
         print(f"reactive4d: {said}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("reactive4d: ended by ctrl-C", file=sys.stderr)
+        return INTERRUPTED
     return 0
 
 
@@ -79,8 +85,8 @@ def _told(words: argparse.Namespace, width: int) -> Iterator[str]:
     elif words.command == "serve" and words.place == "gallery":
         from reactive4d_apps.books.galleries import gallery
 
-        browser = _browser() if words.open else None
-        yield from gallery(port=words.port, host=words.host, browser=browser, width=width)
+        browser, stay = (_browser(), None) if words.open else (None, True)
+        yield from gallery(port=words.port, host=words.host, browser=browser, stay=stay, width=width)
     elif words.command == "serve":
         browser = _browser() if words.open else None
         where = {"port": words.port, "host": words.host, "editable": words.editable}

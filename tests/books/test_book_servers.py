@@ -47,7 +47,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Book:
 @pytest.fixture
 def shelf(written: Book) -> Shelf:
     """Its figures."""
-    return Shelf(entries_of(written.folder / "build" / TREES), [written.folder])
+    return Shelf(entries_of(written.folder / "build" / TREES), written.folder)
 
 
 @pytest.fixture
@@ -136,7 +136,7 @@ def test_a_figure_whose_program_fails_says_so(written: Book):
     """The page then shows what it holds; the server goes on."""
     entries = entries_of(written.folder / "build" / TREES)
     broken = {"program": {"code": "1 / 0", "place": "index.md"}, "name": "broken", "parameters": {}, "options": {}}
-    shelf = Shelf({**entries, "broken": {**broken, "times": None, "title": "Broken"}}, [])
+    shelf = Shelf({**entries, "broken": {**broken, "times": None, "title": "Broken"}}, written.folder)
     with Server(Library(written.folder / "build" / "html", shelf.figures)) as server:
         reply = run(said(server, "broken", {"id": 7, "type": "open"}))
         assert reply == {"id": 7, "type": "error", "text": "ZeroDivisionError: division by zero"}
@@ -173,7 +173,7 @@ def test_an_edited_program_is_imported_anew(tmp_path: Path):
     assert book.build(PAGE, strict=True).ok
     entries = entries_of(book.folder / "build" / TREES)
     [line] = entries
-    shelf = Shelf(entries, [book.folder])
+    shelf = Shelf(entries, book.folder)
     before = shelf.exhibit(line).figure.thing
     program = book.folder / "poles.py"
     program.write_text(program.read_text(encoding="utf-8").replace("A pole", "A mast"), encoding="utf-8")

@@ -1,23 +1,35 @@
-"""Builds: a folder of Markdown becomes a site that opens from the disk; Sphinx does it, in a process of its own."""
+"""Builds: a folder of Markdown becomes a site that opens from the disk."""
 
+import importlib.metadata
 import json
-import os
-import re
-import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
+import reactive4d
+import reactive4d_apps
+import reactive4d_widgets
 from reactive4d.errors import Reactive4dError, UnknownNameError, hint
+from reactive4d.geometry.files import put
+from reactive4d_apps.books.editions import edition_of, tools_of
+from reactive4d_apps.books.locks import Lock
+from reactive4d_apps.books.runs import run
 from reactive4d_apps.phrases import paragraph, sized
 
-__all__ = ["FIGURES", "TREES", "Build", "built", "made", "source_of"]
+__all__ = ["EDITION", "FIGURES", "TREES", "Build", "built", "made", "making", "source_of", "standing"]
 
 TREES = "doctrees"
 FIGURES = "figures-{}.json"  # among them, for each of Sphinx's builders
-_COLORS = re.compile(r"\x1b\[[0-9;]*m")
+EDITION = "edition.txt"  # of what was built whole
+DRAFT = " without pictures"
+PAUSE = 0.2  # seconds between two looks whether somebody else is done
+_PACKAGES = {
+    package.__name__: Path(str(package.__file__)).parent
+    for package in (reactive4d, reactive4d_apps, reactive4d_widgets)
+}
 
 
 @dataclass(frozen=True)
@@ -31,6 +43,7 @@ class Build:
         complaints: what Sphinx said: warnings and errors, one after the other, with file and line.
         figures: how many figures it has.
         size: bytes of the site.
+        draft: whether the pictures that stand for its figures are still to be drawn.
     """
 
     source: Path
@@ -39,6 +52,7 @@ class Build:
     complaints: tuple[str, ...]
     figures: int = 0
     size: int = 0
+    draft: bool = False
 
 
 def source_of(folder: Path) -> Path:
@@ -61,7 +75,25 @@ def made(
     builder: str = "html",
     strict: bool = False,
 ) -> Build:
-    """Build a book.
+    """Build a book, and tell nothing on the way (see `making`)."""
+    steps = making(folder, out=out, work=work, builder=builder, strict=strict)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def making(
+    folder: Path,
+    *,
+    out: Path | None = None,
+    work: Path | None = None,
+    builder: str = "html",
+    strict: bool = False,
+    hasty: bool = False,
+) -> Generator[str, None, Build]:
+    """Build a book. If another program does so in the same folder, this one waits until it is done.
 
     Args:
         folder: of its pages, where conf.py is.
@@ -69,6 +101,10 @@ def made(
         work: the folder of what is kept between builds; by default `build` in that of its pages.
         builder: of Sphinx.
         strict: whether a warning is an error.
+        hasty: whether the pictures that stand for figures are left to the next build, if all has to be built.
+
+    Returns:
+        Lines that tell how far it is; and in the end what became of it.
 
     Raises:
         UnknownNameError: there is no book.
@@ -79,33 +115,61 @@ def made(
         raise hint(Reactive4dError("Sphinx and MyST are not installed"), "pip install 'reactive4d[book]'")
     kept = work or source / "build"
     site, trees = out or kept / builder, kept / TREES
-    words = [sys.executable, "-m", "sphinx", "-q", "-b", builder, "-d", str(trees)]
-    words += [*(["-W", "--keep-going"] if strict else []), str(source), str(site)]
-    run = subprocess.run(words, capture_output=True, text=True, encoding="utf-8", errors="replace", env=_environment())
-    complaints = tuple(_complaints(run.stderr, source))
-    if run.returncode != 0:
-        return Build(source, site, False, complaints or (run.stdout.strip(),))
-    try:
-        figures = len(json.loads((trees / FIGURES.format(builder)).read_text(encoding="utf-8")))
-    except OSError:
-        figures = 0
+    kept.mkdir(parents=True, exist_ok=True)
+    with Lock(kept / "lock") as lock:
+        if not lock.take():
+            yield f"{source}: another program builds this book; this one waits until it is done."
+            while not lock.take():
+                time.sleep(PAUSE)
+        edition = _edition(source)
+        note = kept / EDITION
+        is_anew = tools_of(_noted(kept)) != tools_of(edition)
+        draft = hasty and is_anew
+        words = [sys.executable, "-m", "sphinx", "-b", builder, "-d", str(trees)]
+        words += [*(["-W", "--keep-going"] if strict else [])]
+        # What other tools built, and what a build left that was broken off, is not built upon.
+        words += [*(["--fresh-env", "--write-all"] if is_anew else [])]
+        words += [*(["-D", "illustration_pictures=0"] if draft else []), str(source), str(site)]
+        note.unlink(missing_ok=True)
+        code, complaints = yield from run(words, source, lock)
+        if code in (0, 1):  # it came to its end; warnings may be errors
+            put(note, f"{edition}{DRAFT if draft else ''}".encode())
+    if code != 0:
+        return Build(source, site, False, complaints)
     size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
-    return Build(source, site, True, complaints, figures, size)
+    return Build(source, site, True, complaints, _count(trees, builder), size, draft)
 
 
-def _environment() -> dict[str, str]:
-    """Sphinx writes plain text in one language, whatever the terminal is; what can be imported here can be there."""
-    paths = [path for path in sys.path if path]
-    return {**os.environ, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8", "PYTHONPATH": os.pathsep.join(paths)}
+def standing(folder: Path, *, work: Path) -> Build | None:
+    """What was built before, of these very sources and with these very tools; None where there is none.
+
+    Args:
+        folder: of the book's pages.
+        work: the folder of what was kept.
+    """
+    site, noted = work / "html", _noted(work)
+    if noted.removesuffix(DRAFT) != _edition(folder) or not (site / "index.html").is_file():
+        return None
+    return Build(folder, site, True, (), _count(work / TREES, "html"), draft=noted.endswith(DRAFT))
 
 
-def _complaints(said: str, source: Path) -> Iterator[str]:
-    """What Sphinx complained about, with paths as an author knows them."""
-    lines = _COLORS.sub("", said).splitlines()
-    own = f"{source.resolve()}{os.sep}"
-    for line in lines:
-        if line.strip():
-            yield line.replace(own, "").rstrip()
+def _edition(source: Path) -> str:
+    return edition_of(source, _PACKAGES, importlib.metadata.version("reactive4d"))
+
+
+def _noted(kept: Path) -> str:
+    """The edition that was built last, if that build came to its end."""
+    try:
+        return (kept / EDITION).read_text(encoding="utf-8").strip()
+    except OSError:
+        return ""
+
+
+def _count(trees: Path, builder: str) -> int:
+    try:
+        return len(json.loads((trees / FIGURES.format(builder)).read_text(encoding="utf-8")))
+    except OSError:
+        return 0
 
 
 def built(
@@ -126,7 +190,7 @@ def built(
     Raises:
         Reactive4dError: it could not be built, or there is no Chromium to print it.
     """
-    build = made(folder, out=out, strict=strict)
+    build = yield from making(folder, out=out, strict=strict)
     yield from build.complaints
     if not build.ok:
         refused = Reactive4dError(f"{folder}: the book was not built")

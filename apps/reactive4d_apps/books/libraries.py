@@ -82,18 +82,20 @@ class Library(Hall):
         complaints: Iterable[str],
         *,
         originals: Mapping[str, Original] | None = None,
+        again: bool = True,
     ) -> None:
-        """The site was built anew: its pages load again wherever they are open.
+        """The site was built anew.
 
         Args:
             figures: by the names of their lines.
             complaints: what is wrong with it, for its author to read in the page.
             originals: by the same names: figures of which a reader may have a private copy.
+            again: whether its pages load again wherever they are open.
         """
         self.figures = dict(figures)
         self.originals = cast("dict[str, Original]", {} if originals is None else originals)
         self._held = {path.relative_to(self._site).as_posix(): path for path in self._site.rglob("*") if path.is_file()}
-        self._version += 1
+        self._version += again
         self.complain(complaints)
 
     def complain(self, complaints: Iterable[str]) -> None:

@@ -3,7 +3,7 @@
 import json
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -34,20 +34,20 @@ class Shelf:
 
     Args:
         entries: what a build noted down.
-        folders: in which programs are imported first.
+        folder: of the book's pages; in it programs are imported first.
 
-    >>> shelf = Shelf({}, [])
+    >>> shelf = Shelf({}, Path())
     >>> shelf.figures, shelf.files
     ({}, ())
     """
 
-    def __init__(self, entries: Mapping[str, Mapping[str, Any]], folders: Iterable[Path]) -> None:
+    def __init__(self, entries: Mapping[str, Mapping[str, Any]], folder: Path) -> None:
         self._entries = dict(entries)
+        self._folder = folder.resolve()
         self._exhibits: dict[str, Exhibit] = {}
         self._lock = threading.Lock()
-        for folder in map(str, folders):
-            if folder not in sys.path:
-                sys.path.insert(0, folder)
+        if str(self._folder) not in sys.path:
+            sys.path.insert(0, str(self._folder))
 
     @property
     def figures(self) -> dict[str, Callable[[Tell], Answers]]:
@@ -59,7 +59,7 @@ class Shelf:
         """Of which the programs are made, as far as they are an author's own."""
         from reactive4d_apps.sphinx.programs import program_of
 
-        found = [path for entry in self._entries.values() for path in program_of(entry["program"]).files]
+        found = [path for entry in self._entries.values() for path in program_of(entry["program"], self._folder).files]
         return tuple(dict.fromkeys(found))
 
     def exhibit(self, line: str) -> Exhibit:
@@ -74,7 +74,7 @@ class Shelf:
         with self._lock:
             if line not in self._exhibits:
                 entry = self._entries[line]
-                thing = program_of(entry["program"]).thing()
+                thing = program_of(entry["program"], self._folder).thing()
                 controls = {control.name: control for control in subject(thing).controls}
                 values = {
                     n: meant(v, controls.get(n)) for n, v in entry["parameters"].items() if not isinstance(v, list)

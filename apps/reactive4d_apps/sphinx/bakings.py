@@ -26,10 +26,11 @@ from reactive4d_widgets.stills import pictured
 from reactive4d_widgets.tables import compact, tabulated
 from reactive4d_widgets.themes import THEMES
 
-__all__ = ["Baking", "Pantry", "Still", "Wish", "meant", "opening"]
+__all__ = ["EMPTY", "Baking", "Pantry", "Still", "Wish", "meant", "opening"]
 
 SIZE = (1280, 800)  # of a still picture, pixels
 QUALITY = 75  # of 100: nobody sees a difference, and two pictures take little more than one at 88 did
+EMPTY = "empty"  # the picture of what was not drawn yet
 LIMIT = 20_000_000  # bytes of one figure
 
 
@@ -152,29 +153,45 @@ class Pantry:
         table = json.loads(compact(table))
         return Baking(wish.key, table, tuple(problems), tuple(notes), fresh=True)
 
-    def still(self, wish: Wish, baking: Baking, point: Mapping[str, Any]) -> "Still":
+    def still(self, wish: Wish, baking: Baking, point: Mapping[str, Any], *, drawn: bool = True) -> "Still":
         """What stands for a figure where nothing lives: what it shows at a point.
 
         Args:
             wish: what is wanted.
             baking: of that.
             point: time and parameters, as they travel.
+            drawn: whether there is a picture; else there is an empty one, unless it was drawn before.
         """
         name = f"{baking.key[:16]}-{digest_of(compact([point['time'], point['parameters']]), [])[:16]}"
         endings = ("webp", "dark.webp", "png", "txt")
         light, dark, printed, told = (self.folder / f"{name}.{ending}" for ending in endings)
-        if not all(path.exists() for path in (light, dark, printed, told)):
-            self.drawn += 1
+        is_drawn = all(path.exists() for path in (light, dark, printed))
+        if not told.exists() or (drawn and not is_drawn):
             self.folder.mkdir(parents=True, exist_ok=True)
             plan = wish.plan()
             given = {key: plan.controls[key].decode(wire) for key, wire in point["parameters"].items()}
-            draw = _drawing(plan, baking, point, given)
-            images = {theme: draw(theme) for theme in ("light", "dark")}
-            put(printed, _encoded(images["light"], "PNG", optimize=True))
-            for theme, path in (("light", light), ("dark", dark)):
-                put(path, _encoded(images[_theme(baking, theme)], "WEBP", quality=QUALITY, method=6))
             put(told, _told(plan, baking, point["time"], given).encode("utf-8"))
-        return Still(light, dark, printed, told.read_text(encoding="utf-8"))
+            if drawn and not is_drawn:
+                self.drawn += 1
+                draw = _drawing(plan, baking, point, given)
+                images = {theme: draw(theme) for theme in ("light", "dark")}
+                put(printed, _encoded(images["light"], "PNG", optimize=True))
+                for theme, path in (("light", light), ("dark", dark)):
+                    put(path, _encoded(images[_theme(baking, theme)], "WEBP", quality=QUALITY, method=6))
+                is_drawn = True
+        text = told.read_text(encoding="utf-8")
+        return Still(light, dark, printed, text) if is_drawn else self._empty(text)
+
+    def _empty(self, text: str) -> "Still":
+        """Pictures that show nothing."""
+        from PIL import Image
+
+        light, printed = (self.folder / f"{EMPTY}.{ending}" for ending in ("webp", "png"))
+        if not (light.exists() and printed.exists()):
+            image = Image.new("RGBA", SIZE, (0, 0, 0, 0))
+            put(light, _encoded(image, "WEBP"))
+            put(printed, _encoded(image, "PNG"))
+        return Still(light, light, printed, text)
 
 
 @dataclass(frozen=True)

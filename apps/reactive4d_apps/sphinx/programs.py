@@ -167,25 +167,41 @@ class Coded(Program):
         return shown
 
 
-def program_of(entry: Mapping[str, Any]) -> Program:
-    """The program that a site was told to have (see `kept`)."""
-    besides = tuple(Path(path) for path in entry.get("besides", ()))
+def program_of(entry: Mapping[str, Any], home: Path) -> Program:
+    """The program that a site was told to have (see `kept`), of a book in a folder."""
+    besides = tuple(home / path for path in entry.get("besides", ()))
     if "code" not in entry:
-        return Placed(entry["place"], besides)
-    before = program_of(entry["before"]) if entry.get("before") else None
+        is_script = Path(entry["place"]).suffix == ".scefo"
+        return Placed(str(home / entry["place"]) if is_script else entry["place"], besides)
+    before = program_of(entry["before"], home) if entry.get("before") else None
     assert before is None or isinstance(before, Coded)
-    return Coded(entry["code"], entry["place"], entry.get("line", 1), besides, before)
+    return Coded(entry["code"], str(home / entry["place"]), entry.get("line", 1), besides, before)
 
 
-def kept(program: Program) -> dict[str, Any]:
-    """A program as JSON."""
+def kept(program: Program, home: Path) -> dict[str, Any]:
+    """A program as JSON; paths in the folder of its book are told from there, so that the book may be elsewhere.
+
+    >>> kept(Placed("/book/scripts/egg.scefo", (Path("/data/egg.off"),)), Path("/book"))
+    {'place': 'scripts/egg.scefo', 'besides': ['/data/egg.off']}
+    """
     if isinstance(program, Placed):
-        return {"place": program.place, "besides": [str(path) for path in program.besides]}
+        besides = [_from(home, path) for path in program.besides]
+        is_script = Path(program.place).suffix == ".scefo"
+        return {"place": _from(home, program.place) if is_script else program.place, "besides": besides}
     if not isinstance(program, Coded):
         raise Reactive4dError(f"{program!r} cannot be kept")
-    before = kept(program.before) if program.before else None
-    besides = [str(path) for path in program.besides]
-    return {"code": program.code, "place": program.place, "line": program.line, "besides": besides, "before": before}
+    return {
+        "code": program.code,
+        "place": _from(home, program.place),
+        "line": program.line,
+        "besides": [_from(home, path) for path in program.besides],
+        "before": kept(program.before, home) if program.before else None,
+    }
+
+
+def _from(home: Path, path: str | Path) -> str:
+    path = Path(path)
+    return path.relative_to(home).as_posix() if path.is_relative_to(home) else path.as_posix()
 
 
 def script_of(thing: Any) -> str:

@@ -148,7 +148,7 @@ class Readings(SphinxTransform):
         cast = Cast(name, baking, point, thing)
         if node["point"]:
             cast.holds(node["point"])
-        still = pantry.still(wish, baking, point)
+        still = pantry.still(wish, baking, point, drawn=self.config.illustration_pictures)
         self.company.casts[name] = cast
         self.programs[name] = program
         self.wishes[name] = wish
@@ -190,7 +190,7 @@ class Readings(SphinxTransform):
             "key": baking.key,
             "digest": digest,
             "pictures": [],
-            "program": kept(wish.program),
+            "program": kept(wish.program, Path(self.env.srcdir)),
             "times": wish.times,
             "parameters": dict(wish.parameters),
             "options": dict(wish.options),
@@ -204,7 +204,8 @@ class Readings(SphinxTransform):
         node["picture"], node["dark"] = still.light.name, still.dark.name
         node["uri"] = os.path.relpath(still.printed, self.env.srcdir)
         self.env.images.add_file(self.env.docname, node["uri"])
-        site_of(self.env)[self.env.docname][node["line_name"]]["pictures"] = [str(still.light), str(still.dark)]
+        pictures = dict.fromkeys((still.light.name, still.dark.name))
+        site_of(self.env)[self.env.docname][node["line_name"]]["pictures"] = [*pictures]
 
     def _code(self, node: Illustration, figure: nodes.figure, program: Program) -> None:
         where = node["code_at"]
@@ -248,7 +249,8 @@ class Readings(SphinxTransform):
             point = {**cast.point, "time": time, "parameters": {**cast.point["parameters"], **shared}}
             self.company.casts[cast.name] = replace(cast, point=point)
             node["point"] = Bookmark(time, point["parameters"]).to_link()
-            self._still(node, pantry_of(self.app).still(self.wishes[cast.name], cast.baking, point))
+            drawn = self.config.illustration_pictures
+            self._still(node, pantry_of(self.app).still(self.wishes[cast.name], cast.baking, point, drawn=drawn))
 
     # -- what stands in a sentence -----------------------------------------------------------------------------------
 

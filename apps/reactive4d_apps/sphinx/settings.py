@@ -10,6 +10,7 @@ from docutils import nodes
 from sphinx.util import logging
 
 from reactive4d.geometry.files import put
+from reactive4d_apps.sphinx.bakings import EMPTY
 from reactive4d_apps.sphinx.directives import ExerciseDirective, IllustrationDirective, SolutionDirective
 from reactive4d_apps.sphinx.elements import Illustration, add_elements
 from reactive4d_apps.sphinx.mathml import visit_displayed, visit_inline
@@ -36,6 +37,7 @@ def setup(app: Any) -> dict[str, Any]:
         What it wants to know of an extension.
     """
     app.add_config_value("illustration_cache", "", "")
+    app.add_config_value("illustration_pictures", True, "", bool)
     app.add_config_value("illustration_limit", 20.0, "env", [float, int])
     add_elements(app)
     app.add_directive("illustration", IllustrationDirective)
@@ -79,8 +81,9 @@ def _begin(app: Any) -> None:
 
 
 def _outdated(app: Any, env: Any, added: set[str], changed: set[str], removed: set[str]) -> list[str]:
-    """Pages with figures to be read anew: with another engine, or not written, or something was removed."""
+    """Pages with figures to be read anew: with another engine, not written, or with something to be made."""
     folder, done = pantry_of(app).folder, _done(app)
+    empty = f"{EMPTY}.webp" if app.config.illustration_pictures else ""
     is_same = getattr(env, "r4d_engine", engine_digest()) == engine_digest()
     env.r4d_engine = engine_digest()
     return [
@@ -88,7 +91,9 @@ def _outdated(app: Any, env: Any, added: set[str], changed: set[str], removed: s
         for page, entries in site_of(env).items()
         if not is_same
         or any(done.get(line) != json.loads(json.dumps(entry)) for line, entry in entries.items())
-        or any(not (folder / f"{entry['key']}.json").exists() for entry in entries.values())
+        or any(
+            empty in entry["pictures"] or not (folder / f"{entry['key']}.json").exists() for entry in entries.values()
+        )
     ]
 
 

@@ -94,10 +94,10 @@ def write_data(static: Path, entries: Iterable[Mapping[str, Any]], pantry: Path)
     folder.mkdir(parents=True, exist_ok=True)
     wanted: dict[str, None] = {}
     for entry in entries:
-        for picture in map(Path, entry["pictures"]):
-            wanted[picture.name] = None
-            if not (folder / picture.name).exists():
-                _put(folder / picture.name, picture.read_bytes())
+        for picture in entry["pictures"]:
+            wanted[picture] = None
+            if not (folder / picture).exists():
+                _put(folder / picture, (pantry / picture).read_bytes())
         path = pantry / f"{entry['key']}.json"
         table = json.loads(path.read_text(encoding="utf-8"))["table"]
         for name, content in _scripts(entry["source"], table).items():
