@@ -48,8 +48,11 @@ class Shaken(Pendulum):
             return float(np.floor(-1e6 * length * np.cos(t)) / 1e6)
 
         bob = r4.Sphere(radius=0.1, segments=8)
-        bob.translate(r4.vec(0, 0, low(r4.time, self.signals.length)))
-        return r4.Scene(bob=bob)
+        height = low(r4.time, self.signals.length)
+        bob.translate(r4.vec(0, 0, height))
+        scene = r4.Scene(bob=bob)
+        scene.cells = {"height": height}  # what is done for it is asked with it
+        return scene
 
 
 def asked(page: Any) -> list[dict[str, Any]]:

@@ -43,12 +43,13 @@ export class Ahead {
   #cost = 0; // seconds per instant
   #weight = 0; // bytes per instant
 
-  /** @param {Manifest} manifest @param {import("./store.js").ChannelStore} store */
-  constructor({ times, nodes, values }, store) {
+  /** @param {Manifest} manifest @param {import("./store.js").ChannelStore} store
+   * @param {readonly string[]} scene channels that are wanted whatever is seen */
+  constructor({ times, nodes }, store, scene) {
     this.times = times;
     this.store = store;
     this.heads = nodes.map(({ name }) => `${name}#`);
-    this.values = values.map(({ name }) => `#values.${name}`);
+    this.scene = scene;
   }
 
   /** Something of what was known is known no more. */
@@ -137,7 +138,7 @@ export class Ahead {
         for (const channel of WANTED[drawn] ?? []) look(head + channel);
       }
     }
-    for (const channel of this.values) look(channel);
+    for (const channel of this.scene) look(channel);
     if (missing.length === 0) {
       const [a, b] = this.#clear;
       this.#clear = since <= b && a <= until ? [Math.min(a, since), Math.max(b, until)] : [since, until];

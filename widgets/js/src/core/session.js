@@ -97,7 +97,7 @@ export class Session extends Emitter {
     }));
     const watch = new Watch(manifest, this.store, this.blobs);
     const courier = new Courier(this.transport, this.store, this.blobs, manifest.revision);
-    this.#parts = { manifest, watch, courier, ahead: new Ahead(manifest, this.store) };
+    this.#parts = { manifest, watch, courier, ahead: new Ahead(manifest, this.store, watch.scene) };
     this.transport.onStale((stale) => this.#cut(stale));
     const { time, parameters } = manifest.point;
     this.#wish = this.#wishFor(Object.freeze({ time, parameters }));

@@ -53,6 +53,11 @@ export class Watch {
     return [...this.watches.flatMap(({ channels }) => channels), ...this.#values.map(({ channel }) => channel)];
   }
 
+  /** The channels that are the scene's and no node's. */
+  get scene() {
+    return [...this.#cells, ...this.#values].map(({ channel }) => channel);
+  }
+
   /** The arrays in view. */
   get refs() {
     return new Set(this.watches.flatMap(({ refs }) => refs));
