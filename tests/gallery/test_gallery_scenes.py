@@ -19,6 +19,8 @@ from reactive4d_apps.gallery import (
     tyres,
     watching,
 )
+from reactive4d_widgets.charts import chart
+from reactive4d_widgets.doings import Doings
 
 
 def test_the_bar_is_as_long_as_the_answer_holds():
@@ -137,6 +139,27 @@ def test_camera_and_eyes_look_at_what_they_watch():
     for side in ("left", "right"):
         eye = frame[f"{side} eye/ball"].matrix
         assert np.allclose(directed(eye, fly), -eye[:3, 2])
+
+
+def test_the_graph_beside_the_figure_says_what_the_chapter_says():
+    """As time goes on and where the point is dragged, chair and body are answered from memory, and the rest is not."""
+    reader = type("Watcher", (watching.Watcher,), {})()
+    doings = Doings(reader.scene)
+    names = list(reader.scene.cells)
+    doings.ask(3.0, {})
+
+    def done(t: float, **values: Any) -> dict[str, set[str]]:
+        letters = doings.ask(t, values)
+        return {letter: {name for name, one in zip(names, letters, strict=True) if one == letter} for letter in letters}
+
+    still, seen = {"chair", "body"}, set(names) - {"chair", "body"}
+    assert done(3.1) == {"r": still, "e": seen - {"your point"}, "-": {"your point"}}
+    assert done(3.1, x=0.2, z=2.0) == {"r": still, "e": seen}
+    assert done(3.1, x=0.2, z=2.0) == {"r": {"picture"}, "-": set(names) - {"picture"}}
+    arrows = {(names[a], names[b]) for a, b, *_ in chart(reader.scene)["arrows"]}
+    assert {("your point", "the way"), ("the way", "fly's place"), ("fly's place", "left eye")} < arrows
+    assert {("fly's place", "above 2 m?"), ("above 2 m?", "lamp"), ("lamp", "picture"), ("chair", "picture")} < arrows
+    assert not [arrow for arrow in arrows if arrow[1] in still]
 
 
 def directed(start: Any, stop: Any) -> Any:

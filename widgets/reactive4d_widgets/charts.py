@@ -1,6 +1,6 @@
 """Charts: who asks whom, as boxes in rows: what is asked stands above who asks it, the picture at the bottom.
 
-Rows are filled from the bottom, at most three boxes each, so that a chart is no wider than a phone. In each row the boxes
+Rows are filled from the bottom, at most three boxes each, so that a chart is no wider than a phone. The boxes of a row
 have the order in which the fewest arrows cross. A long arrow passes the rows between through gaps of its own.
 """
 

@@ -49,8 +49,12 @@ WAY: dict[float, Any] = {
 }
 
 
-def watcher(way: Any) -> dict[str, r4.Object]:
-    """A figure in a chair, a fly, eyes that ask the fly where it is, and a lamp that lights while it is above 2 m."""
+def watcher(way: Any) -> tuple[dict[str, r4.Object], r4.Signal[Any]]:
+    """A figure in a chair, a fly, eyes that ask the fly where it is, and a lamp that lights while it is above 2 m.
+
+    Returns:
+        The objects by name, and whether the fly is above 2 m.
+    """
     seat, back = r4.Box((1, 1, 0.12), color="tan"), r4.Box((1, 0.12, 1.3), color="tan")
     seat.translate((0, 0, 0.9))
     back.translate((0, 0.44, 1.5))
@@ -63,7 +67,7 @@ def watcher(way: Any) -> dict[str, r4.Object]:
     body = r4.Duct([r4.Circle(r, segments=16) for r in (0.2, 0.3, 0.1)], path=spine, smooth=True, color="steelblue")
     head = r4.Sphere(0.28, color="burlywood")
     head.translate((0, 0.08, 2.35))
-    limbs = {}
+    limbs: dict[str, r4.Object] = {}
     for side, x in (("left", -0.18), ("right", 0.18)):
         bones = [(x, 0.1, 1.05), (x, -0.55, 1.05), (x, -0.62, 0.9), (x, -0.62, 0.05)]
         leg = r4.Duct([r4.Circle(0.11, segments=12)], path=r4.Path(bones, samples=16), smooth=True, color="steelblue")
@@ -88,26 +92,33 @@ def watcher(way: Any) -> dict[str, r4.Object]:
         eyes[side].translate((x, -0.17, 2.4))
         eyes[side].apply(r4.LookAt(fly.position))
     lamp = r4.Sphere(0.15, segments=16, rings=8)
-    lamp.color = r4.where(fly.position[2] > 2, r4.color("gold"), r4.color("dimgray"))
+    above = fly.position[2] > 2
+    lamp.color = r4.where(above, r4.color("gold"), r4.color("dimgray"))
     lamp.translate((-1.3, 0.4, 2.4))
     pole = r4.Cylinder(0.03, 2.3, color="gray")
     pole.translate((-1.3, 0.4, 1.15))
-    return {"chair": chair, "body": body, "head": head, **limbs, "fly": fly, **eyes, "lamp": lamp, "pole": pole}
+    parts: dict[str, r4.Object] = {"chair": chair, "body": body, "head": head, **limbs, "fly": fly, **eyes}
+    parts |= {"lamp": lamp, "pole": pole}
+    return parts, above
 
 
 class Watcher(r4.Illustration):
-    """A figure in its chair watches a fly, whose way a reader bends."""
+    """A figure in its chair watches a fly, whose way a reader bends; beside it, who asks whom."""
 
     times = (0, 8)
-    x = param.Number(1.0, bounds=(-1.5, 2.0), precedence=-1, doc="where the fly is at 4 s, to the side [m]")
-    z = param.Number(2.9, bounds=(1.2, 3.2), precedence=-1, doc="where the fly is at 4 s, above the floor [m]")
+    x = param.Number(
+        1.0, bounds=(-1.5, 2.0), precedence=-1, label="the side", doc="where the fly is at 4 s, to the side [m]"
+    )
+    z = param.Number(
+        2.9, bounds=(1.2, 3.2), precedence=-1, label="the height", doc="where the fly is at 4 s, above the floor [m]"
+    )
 
     def build(self) -> r4.Scene:
         """The way is a curve through five points, one of which is where the reader says."""
         p = self.signals
         third = r4.vec(p.x, -1.2, p.z)
         way = r4.keys({**WAY, 4: third}, interpolation="catmull_rom")
-        parts = watcher(way)
+        parts, above = watcher(way)
         for i in range(25):
             dot = parts[f"way{i}"] = r4.Sphere(0.025, segments=8, rings=4, color="gray")
             dot.translate(way.warp(r4.Variable(i / 3)))
@@ -117,6 +128,18 @@ class Watcher(r4.Illustration):
         scene = r4.Scene(parts)
         scene.handle(held, x=p.x, z=p.z, label="where the fly is at 4 s")
         scene.signals["solved"] = p.z <= 2
+        scene.cells = {
+            "your point": third,
+            "the way": way,
+            "fly's place": parts["fly"].position,
+            "left eye": parts["left eye"].matrix,
+            "right eye": parts["right eye"].matrix,
+            "above 2 m?": above,
+            "lamp": parts["lamp"].color,
+            "chair": parts["chair"],
+            "body": parts["body"],
+            "picture": scene.frame,
+        }
         return scene
 
 
@@ -160,7 +183,7 @@ COLORS = {
 def recorded() -> list[tuple[str, str]]:
     """What the engine did with which cell when the way was edited at 4 s, and the scene asked for 3 s; each once."""
     way = r4.keys(WAY, interpolation="catmull_rom", name="way")
-    scene = r4.Scene(watcher(way))
+    scene = r4.Scene(watcher(way)[0])
     scene.at(3)
     with r4.log() as events:
         way.points[4] = (0.4, -1.6, 2.5)

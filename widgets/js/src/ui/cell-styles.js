@@ -6,7 +6,7 @@ export const cellStyles = `
 @media screen { [data-theme="dark"] .cells { --fresh: #4fd39a; --same: #c9a0f2; } }
 .cells p { margin: 0; }
 .cells .head { font-weight: 600; }
-.cells .told { color: var(--soft); margin-bottom: 8px; }
+.cells .told { color: var(--soft); margin-bottom: 8px; min-height: 2.7em; }
 .cells svg { display: block; width: 100%; height: auto; margin: 0 auto; overflow: visible; }
 .cells text { font-size: 13px; text-anchor: middle; fill: var(--ink); }
 .cells .word { font-size: 11px; font-style: italic; }

@@ -23,7 +23,7 @@ export const WORDS = Object.freeze({
 });
 const USUAL = "er-";
 const CALM = 600; // ms
-const RECORDED = "recorded when this page was made.";
+const RECORDED = "Recorded when this page was made, as";
 
 const [HIGH, ROW, GAP, EDGE] = [36, 66, 12, 3];
 const SVG = "http://www.w3.org/2000/svg";
@@ -128,11 +128,11 @@ export class Cells {
   /** Where it is known from. */
   #source() {
     const { moves } = this.chart;
-    if (moves === null) return "What was done for this picture, live: just now, for you.";
+    if (moves === null) return "Live: what was done for this picture just now, for you.";
     const names = moves[this.#record - 1];
-    if (!names) return `What is done for a picture as time goes on: ${RECORDED}`;
+    if (!names) return `${RECORDED} time goes on.`;
     const labels = this.manifest.parameters.filter(({ name }) => names.includes(name)).map(({ label }) => label);
-    return `What is done for a picture as ${labels.join(" and ")} move${labels.length > 1 ? "" : "s"}: ${RECORDED}`;
+    return `${RECORDED} ${labels.join(" and ")} move${labels.length > 1 ? "" : "s"}.`;
   }
 
   #explain() {
