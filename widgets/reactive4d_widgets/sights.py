@@ -1,14 +1,15 @@
 """Sights: where things are and how they look at some ticks, for the view, the bounds and the text alternative.
 
-Nothing is asked here that the table does not ask as well: channels at ticks.
+Nothing is asked here that the table does not ask as well, channels at ticks, but for the ends of what is free anyway.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.errors import ParameterError
 from reactive4d.geometry.transforms import transform_points
 from reactive4d.model.drawings import Points
 from reactive4d.model.nodes import Node
@@ -18,7 +19,7 @@ from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Seat
 from reactive4d_widgets.views import View, holding, outermost
 
-__all__ = ["outline", "text_of", "view"]
+__all__ = ["ends_of", "outline", "text_of", "view"]
 
 Array = NDArray[np.float64]
 TIMES = 9
@@ -28,11 +29,34 @@ class _UnseenError(Exception):
     """Something about a node is an error just then."""
 
 
-def outline(plan: Plan) -> Array:
-    """(N, 3), the outermost points of what can be seen at some ticks, for the lowest and highest baked values too."""
+def ends_of(plan: Plan) -> dict[str, list[Any]]:
+    """The lowest and the highest value of each number that has them, by its parameter's name."""
+    found: dict[str, list[Any]] = {}
+    for name, control in plan.controls.items():
+        low, high = control.soft or control.bounds or (None, None)
+        if control.kind not in ("number", "integer") or control.constant or low is None or high is None:
+            continue
+        try:
+            found[name] = [control.decode(low), control.decode(high)]
+        except ParameterError:  # an end that is not admitted itself
+            continue
+    return found
+
+
+def outline(plan: Plan, *, besides: Mapping[str, Sequence[Any]] | None = None) -> Array:
+    """(N, 3), the outermost points of what can be seen at some ticks, for the lowest and highest baked values too.
+
+    Args:
+        plan: what is asked.
+        besides: by parameter, values at which to look in place of these.
+    """
     asker = plan.asker
-    corners = [{}, *({name: end} for name, stops in asker.stops.items() for end in (stops[0], stops[-1]))]
-    found: list[Array] = []
+    corners: list[Mapping[str, Any]] = []
+    if besides is None:
+        corners = [{}, *({name: end} for name, stops in asker.stops.items() for end in (stops[0], stops[-1]))]
+    else:
+        corners = [{name: value} for name, values in besides.items() for value in values]
+    found: list[Array] = [np.zeros((0, 3))]
     for assigned in corners:
         for t in asker.span.few(TIMES):
             nodes = {seat.name: _node(plan, seat, t, assigned) for seat in plan.seats}

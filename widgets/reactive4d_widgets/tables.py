@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reactive4d_widgets.blends import blended
 from reactive4d_widgets.chronicles import chronicled
@@ -17,7 +18,7 @@ from reactive4d_widgets.packings import compact, packed
 from reactive4d_widgets.plans import Plan
 from reactive4d_widgets.seats import Channel
 from reactive4d_widgets.segments import Segment, is_timeless
-from reactive4d_widgets.sights import outline, view
+from reactive4d_widgets.sights import ends_of, outline, view
 from reactive4d_widgets.stores import Store
 
 __all__ = ["Problem", "Table", "compact", "tabulated"]
@@ -102,7 +103,7 @@ def tabulated(
         survey: looks at what it will take before it is done, and may raise.
     """
     outer = outline(plan)
-    bounds = np.array([outer.min(axis=0), outer.max(axis=0)]) if len(outer) else np.zeros((2, 3))
+    bounds = _bounds(outer)
     size = float(np.linalg.norm(bounds[1] - bounds[0])) or 1.0
     store = Store()
     coverer = Coverer(plan.asker, store, size, keys=plan.keys)
@@ -122,6 +123,12 @@ def tabulated(
         described(control, segments, plan.asker, readers_of(segments), depends=depends.get(control.name))
         for control in plan.subject.controls
     ]
+    # What is free without having been asked for can go anywhere within its bounds: the view holds that as well.
+    free = {entry["name"] for entry in graded if entry["grade"] == "free" and not entry["stops"]}
+    ends = {name: values for name, values in ends_of(plan).items() if name in free}
+    if ends:
+        outer = np.concatenate([outer, outline(plan, besides=ends)])
+        bounds = _bounds(outer)
     sizes: dict[str, int] = {}
     written = [_written(plan, segment, sizes) for segment in segments]
     chronicle = chronicled(plan, graded)
@@ -162,6 +169,11 @@ def tabulated(
         if segment.error is not None
     ]
     return Table(manifest, written, chunks, plan.asker.asks, sizes, problems, travelling)
+
+
+def _bounds(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2, 3), the lowest and the highest corner."""
+    return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
 
 def marks(plan: Plan) -> list[float]:

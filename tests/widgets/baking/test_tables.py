@@ -176,6 +176,26 @@ def test_the_manifest_says_what_there_is(bake: Any) -> None:
     assert manifest["point"] == {"time": 1.0, "parameters": {}, "camera": None}
 
 
+def test_the_view_holds_what_a_free_parameter_can_make() -> None:
+    """Nobody said at which values to ask for it, and yet a reader can go to all of them."""
+
+    class Reaching(r4.Illustration):
+        arm = param.Number(1.0, bounds=(1.0, 8.0))
+        width = param.Number(1.0, bounds=(1.0, 30.0))
+
+        def build(self) -> r4.Scene:
+            ball = r4.Sphere(radius=0.5)
+            ball.translate(r4.vec(self.signals.arm, 0, 0))
+            box = r4.Box(r4.lift(lambda width: (0.1, width, 0.1))(self.signals.width))
+            return r4.Scene(ball=ball, box=box)
+
+    table = tabulated(planned(Reaching))
+    low, high = table.manifest["bounds"]
+    assert [entry["grade"] for entry in table.manifest["parameters"]] == ["free", "fixed"]
+    assert high[0] == pytest.approx(8.5, abs=0.02)
+    assert (low[1], high[1]) == pytest.approx((-0.5, 0.5), abs=0.02)
+
+
 def test_where_the_page_opens_is_within_its_times(bake: Any) -> None:
     """A reader's time that is not shown is moved to the next that is."""
     assert bake(r4.Scene(ball=r4.Sphere()), times=(3, 4)).manifest["point"]["time"] == 3.0

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from reactive4d.errors import ParameterError
 from reactive4d.illustrations import Control, Subject
 from reactive4d.illustrations.controls import listed
 from reactive4d_widgets.dependences import dependences
 from reactive4d_widgets.plans import Plan, planned
-from reactive4d_widgets.sights import outline, view
+from reactive4d_widgets.sights import ends_of, outline, view
 from reactive4d_widgets.tables import marks
 
 __all__ = ["Frame", "described", "framed"]
@@ -44,25 +43,11 @@ def framed(thing: Any, *, times: Any = None) -> Frame:
     plan = planned(thing, times=times)
     before = time.thread_time()
     points = outline(plan)
-    ends = _ends(plan)
+    ends = ends_of(plan)
     if ends and time.thread_time() - before <= SOON:
         points = np.concatenate([points, outline(planned(thing, times=times, parameters=ends))])
     bounds = [points.min(axis=0).tolist(), points.max(axis=0).tolist()] if len(points) else [[0.0] * 3, [0.0] * 3]
     return Frame(view(points).to_json(), bounds)
-
-
-def _ends(plan: Plan) -> dict[str, list[Any]]:
-    """The lowest and the highest value of each number that has them, by its parameter's name."""
-    found: dict[str, list[Any]] = {}
-    for name, control in plan.controls.items():
-        low, high = control.soft or control.bounds or (None, None)
-        if control.kind not in ("number", "integer") or control.constant or low is None or high is None:
-            continue
-        try:
-            found[name] = [control.decode(low), control.decode(high)]
-        except ParameterError:  # an end that is not admitted itself
-            continue
-    return found
 
 
 def described(
