@@ -1,4 +1,4 @@
-"""Real notebooks for the tests: a JupyterLab or a Notebook 7 of our own, and its page in a browser."""
+"""Real notebooks for the tests: a JupyterLab, a Notebook 7 or a marimo of our own, and its page in a browser."""
 
 import contextlib
 import json
@@ -63,9 +63,7 @@ def served(program: str, folder: Path, cells: list[str]) -> Iterator[str]:
     """
     (folder / "work").mkdir()
     written(folder / "work" / "x.ipynb", cells)
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        port = found.getsockname()[1]
+    port = free_port()
     options = [
         "--no-browser",
         f"--port={port}",
@@ -73,23 +71,44 @@ def served(program: str, folder: Path, cells: list[str]) -> Iterator[str]:
         "--IdentityProvider.token=",
         "--allow-root",
     ]
+    with started([program, *options], folder / "work", environment(folder), f"http://127.0.0.1:{port}/api"):
+        yield f"http://127.0.0.1:{port}"
+
+
+def free_port() -> int:
+    """A port that nobody listens on."""
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        return found.getsockname()[1]
+
+
+@contextmanager
+def started(words: list[str], folder: Path, variables: dict[str, str], probe: str) -> Iterator[None]:
+    """A server of notebooks, from when it answers until it is no longer wanted.
+
+    Args:
+        words: of `python -m`.
+        folder: in which it runs.
+        variables: of its environment.
+        probe: an address at which it answers.
+    """
     server = subprocess.Popen(
-        [sys.executable, "-m", program, *options],
-        cwd=folder / "work",
-        env=environment(folder),
+        [sys.executable, "-m", *words],
+        cwd=folder,
+        env=variables,
+        stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    address = f"http://127.0.0.1:{port}"
     try:
         for _ in range(480):
             try:
-                with urlopen(f"{address}/api", timeout=2):
+                with urlopen(probe, timeout=2):
                     break
             except OSError:
-                assert server.poll() is None, f"{program} does not start"
+                assert server.poll() is None, f"{words[0]} does not start"
                 time.sleep(0.25)
-        yield address
+        yield
     finally:
         server.terminate()
         server.wait(30)
