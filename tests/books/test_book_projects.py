@@ -21,6 +21,8 @@ def test_a_new_book_builds_at_once_and_without_a_complaint(new_book: Callable[[s
     assert build.ok, build.complaints
     assert (build.figures, build.complaints) == (1, ())
     assert "Waves and winds" in (build.site / "index.html").read_text(encoding="utf-8")
+    chapter = (build.site / "chapters" / "01_pendulum.html").read_text(encoding="utf-8")
+    assert "<title>1. A pendulum – Waves and winds</title>" in chapter
 
 
 def test_the_command_says_where_the_site_is(new_book: Callable[[str], Path], capsys: pytest.CaptureFixture[str]):
