@@ -1,4 +1,4 @@
-"""The first command of the README: a page of the script of 1990, in which egg, camera and light move."""
+"""The page of the demo: the script of 1990, in which egg, camera and light move."""
 
 import os
 import subprocess

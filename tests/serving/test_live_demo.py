@@ -1,4 +1,4 @@
-"""The README's first command: the script of 1990, live, in a browser or where there is none."""
+"""The demo: the script of 1990, live, in a browser or where there is none."""
 
 import os
 import signal
