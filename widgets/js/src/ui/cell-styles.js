@@ -40,4 +40,9 @@ export const cellStyles = `
   }
   .life[data-cells] > .cells { grid-area: 1 / 2 / span 3; margin: 0; }
 }
+.life:fullscreen > .cells { max-height: 45vh; overflow: auto; }
+@media (min-width: 50rem) {
+  .life[data-cells]:fullscreen { display: grid; grid-template: 1fr auto auto / minmax(0, 1fr) minmax(0, 26rem); }
+  .life:fullscreen > .cells { max-height: 100vh; margin-top: 10px; }
+}
 `;

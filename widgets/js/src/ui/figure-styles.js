@@ -194,7 +194,6 @@ select {
   background: var(--wash); }
 
 ${controlStyles}
-${cellStyles}
 
 /* Full screen, paper, and colours that the reader forces */
 .life:fullscreen { display: flex; flex-direction: column; background: var(--paper); padding: 0 16px 10px; }
@@ -203,6 +202,7 @@ ${cellStyles}
   width: auto; min-height: 0; }
 .life:fullscreen .menu { top: auto; bottom: calc(100% + 4px); }
 .life:fullscreen .controls { max-height: 30vh; overflow: auto; }
+${cellStyles}
 @media (prefers-reduced-motion: reduce) { *, *::before { animation: none !important; transition: none !important; } }
 @media (forced-colors: active) {
   .icon { fill: ButtonText; }
