@@ -6,13 +6,15 @@ next, with other cells one takes the place of another.
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
-from reactive4d.errors import Reactive4dError, ShapeError, TimeError, UnknownNameError, hint, unknown
+from reactive4d.errors import ShapeError, TimeError, UnknownNameError, hint, unknown
 from reactive4d.geometry.colormaps import Colormap, colormap, limits
 from reactive4d.geometry.datasets import Part, parts_of
+from reactive4d.geometry.pictures import pictured
 from reactive4d.model.kinds.aggregates import Group
 from reactive4d.model.objects import Object
 from reactive4d.model.series import Look, varying
@@ -38,7 +40,7 @@ def from_pyvista(
     interpolation: str = "linear",
     color: Any = None,
     opacity: Any = None,
-    texture: None = None,
+    texture: Any = None,
 ) -> Object:
     """What PyVista has, as an object: a surface, lines, a cloud of points, or a group of them.
 
@@ -57,11 +59,12 @@ def from_pyvista(
         interpolation: between two times "linear", where both have the same cells, or "step".
         color: of the object; then nothing is coloured by numbers unless `scalars` is given.
         opacity: of the object, 0 to 1.
-        texture: pictures on surfaces are not supported; anything but None is refused.
+        texture: a picture on all surfaces that have texture coordinates, a `pyvista.Texture` or (H, W, 3 or 4) bytes:
+            it becomes the colours of their points, of which there are more then, up to a hundred thousand faces.
 
     Raises:
         ShapeError: it is no dataset, has nothing to draw, points that are not finite, or cells of points that are not
-            there.
+            there; a picture that is none, or has no texture coordinates to lie on, or scalars beside it.
         UnknownNameError: there is no such array, colour map or interpolation.
         TimeError: a time that is none, or two datasets at one time.
 
@@ -72,19 +75,54 @@ def from_pyvista(
     >>> (cone - r4.Sphere(0.2)).volume.at(0.0) < cone.volume.at(0.0)
     True
     """
-    if texture is not None:
-        error = Reactive4dError("texture: pictures on surfaces are not supported")
-        raise hint(error, "scalars= takes colours of points or of cells")
     if interpolation not in INTERPOLATIONS:
         raise unknown(interpolation, INTERPOLATIONS, what="interpolation")
     series, when = _series(mesh, times)
     settings = {name: value for name, value in (("color", color), ("opacity", opacity)) if value is not None}
-    tree = _parsed(series, False if color is not None and scalars is None else scalars, "mesh")
+    is_plain = scalars is False or (scalars is None and (color is not None or texture is not None))
+    tree = _parsed(series, False if is_plain else scalars, "mesh")
+    if texture is not None:
+        if not is_plain:
+            raise hint(ShapeError("texture: a surface has the colours of a picture or of scalars"), "leave one out")
+        _spread(tree, _picture(texture))
     paints = [part.paint for leaf in _leaves(tree) for parts in leaf for part in parts.values()]
     numbers = [paint for paint in paints if paint is not None and paint.ndim == 1]
     low, high = limits(numbers, clim)
     look = Look(colormap(_theme() if cmap is None else cmap), low, high, interpolation, settings)
     return _object(tree, when, look)
+
+
+def _picture(texture: Any) -> Any:
+    """A picture as Pillow has it."""
+    import pyvista
+    from PIL import Image
+
+    kit: Any = pyvista
+    given: Any = None
+    if not hasattr(texture, "GetInput"):
+        with suppress(ValueError):  # rows of different lengths
+            given = np.asarray(texture)
+    elif texture.GetInput() is not None and not texture.GetCubeMap():
+        given = np.asarray(kit.Texture(texture.GetInput()).to_array())
+    if given is not None and given.dtype == np.uint8 and given.size:
+        if given.ndim == 2 or given.shape[2:] == (1,):
+            return Image.fromarray(given.reshape(given.shape[:2]))
+        if given.shape[2:] in ((3,), (4,)):
+            return Image.fromarray(given)
+    told = type(texture).__name__ if given is None else f"shape {given.shape} of {given.dtype}"
+    error = ShapeError(f"texture: expected a picture, (H, W, 3 or 4) bytes, got {told}")
+    raise hint(error, "pyvista.read_texture('wood.jpg'), or np.asarray(Image.open('wood.jpg'))")
+
+
+def _spread(tree: Tree, picture: Any) -> None:
+    """Lay a picture on all surfaces that have texture coordinates."""
+    found = [(parts, parts["surface"]) for leaf in _leaves(tree) for parts in leaf if "surface" in parts]
+    if not any(part.uv is not None for _, part in found):
+        error = ShapeError("texture: no surface has texture coordinates, which say what of the picture is where")
+        raise hint(error, "mesh.texture_map_to_plane(inplace=True), or texture_map_to_sphere")
+    for parts, part in found:
+        if part.uv is not None:
+            parts["surface"] = pictured(part, picture)
 
 
 def _theme() -> Any:

@@ -14,7 +14,7 @@ from reactive4d.model.forms import Made
 if TYPE_CHECKING:
     from reactive4d.model.objects import Object
 
-__all__ = ["colors_of", "groups_of", "sources_of"]
+__all__ = ["colors_of", "groups_of", "pieces_of", "sources_of"]
 
 
 def sources_of(obj: "Object") -> NDArray[np.int32] | None:
@@ -28,6 +28,14 @@ def sources_of(obj: "Object") -> NDArray[np.int32] | None:
     if "surface" not in base.kind.methods_by_name:
         return None
     return base.method("surface").now().attributes.get("source")
+
+
+def pieces_of(obj: "Object") -> NDArray[np.int32] | None:
+    """(F,), the number of the object that each face was of; None where all are of one. Only inside of an evaluation."""
+    from reactive4d.model.kinds.aggregates import owners_of  # which is made of these
+
+    sources = sources_of(obj)
+    return None if sources is None else np.array(owners_of(obj), np.int32)[sources]
 
 
 def colors_of(obj: "Object") -> NDArray[np.float32] | None:

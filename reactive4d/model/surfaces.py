@@ -11,7 +11,7 @@ from reactive4d.geometry.meshes import Mesh
 from reactive4d.model.lanes import acting
 from reactive4d.model.mappings import mapped
 from reactive4d.model.masses import closed_form
-from reactive4d.model.palettes import sources_of
+from reactive4d.model.palettes import pieces_of
 from reactive4d.model.stacks import base_of, entries
 from reactive4d.model.steps import step
 
@@ -67,7 +67,7 @@ def surface_of(obj: "Object") -> Mesh:
     if of_points is not None:
         parts["colors"] = of_points
     elif parts["colors"] is not None:
-        parts["source"] = sources_of(obj)  # where faces come from different things there is an edge
+        parts["source"] = pieces_of(obj)  # where faces come from different things there is an edge
     return Mesh(points, faces, {name: part for name, part in parts.items() if part is not None})
 
 

@@ -1,5 +1,7 @@
 """Trimeshes: what the library trimesh has, as objects."""
 
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,7 @@ from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
 from reactive4d.geometry.colormaps import colormap
 from reactive4d.geometry.datasets import Part
+from reactive4d.geometry.pictures import pictured
 from reactive4d.geometry.sizes import singles
 from reactive4d.model.kinds.aggregates import Group
 from reactive4d.model.objects import Object
@@ -23,9 +26,9 @@ Array = NDArray[Any]
 def from_trimesh(geometry: Any, /, *, color: Any = None, opacity: Any = None) -> Object:
     """What trimesh has, as an object: a `Trimesh`, a `PointCloud`, a path, or a `Scene`, which becomes a group.
 
-    The colours of faces or of points are kept; a picture on a surface becomes the colours of the points. The members of
-    a scene are called like its nodes and stand where they stand there; its cameras and lights are left out. What is
-    made stays as it is when the geometry is changed later.
+    The colours of faces or of points are kept. A picture on a surface becomes the colours of its points, of which there
+    are more then, up to a hundred thousand faces. The members of a scene are called like its nodes and stand where they
+    stand there; its cameras and lights are left out. What is made stays as it is when the geometry is changed later.
 
     Args:
         geometry: of trimesh.
@@ -54,7 +57,7 @@ def _object(geometry: Any, look: Look, known: dict[int, Part], where: str) -> Ob
     if isinstance(geometry, kit.Scene):
         return _group(geometry, look, known, where)
     if isinstance(geometry, kit.Trimesh):
-        name, read = "surface", _surface
+        name, read = "surface", partial(_surface, is_plain="color" in look.settings)
     elif isinstance(geometry, kit.points.PointCloud):
         name, read = "points", _cloud
     elif isinstance(geometry, kit.path.path.Path):
@@ -87,7 +90,7 @@ def _group(scene: Any, look: Look, known: dict[int, Part], where: str) -> Object
     return Group(members)
 
 
-def _surface(mesh: Any, where: str) -> Part:
+def _surface(mesh: Any, where: str, *, is_plain: bool) -> Part:
     points = _points(mesh.vertices, where)
     faces = np.asarray(mesh.faces, np.int64).reshape(-1, 3)
     if not len(faces):
@@ -96,13 +99,29 @@ def _surface(mesh: Any, where: str) -> Part:
         stray = int(faces.max() if faces.max() >= len(points) else faces.min())
         raise ShapeError(f"{where}: a face names the point {stray}, and there are {len(points)}")
     visual, uv = mesh.visual, getattr(mesh.visual, "uv", None)
+    kept = None if uv is None or len(uv) != len(points) else freeze(np.array(uv, np.float32)[:, :2])
+    if is_plain:
+        return Part(points, freeze(faces.astype(np.int32)), kept)
     if visual.kind == "texture":
+        material = visual.material
+        picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+        if picture is not None and kept is not None:
+            found = pictured(Part(points, freeze(faces.astype(np.int32)), kept), picture, where=where)
+            return replace(found, paint=_tinted(found.paint, material))
         visual = visual.to_color()
     paint = None
     if visual.kind in ("face", "vertex"):
         paint = _paint(visual.face_colors if visual.kind == "face" else visual.vertex_colors)
-    kept = None if uv is None or len(uv) != len(points) else freeze(np.array(uv, np.float32)[:, :2])
     return Part(points, freeze(faces.astype(np.int32)), kept, paint, is_by_points=visual.kind != "face")
+
+
+def _tinted(colors: Any, material: Any) -> Array:
+    """The colours of a picture as a material has them: times its own, and opaque unless it says otherwise."""
+    factor = getattr(material, "baseColorFactor", None)
+    found = colors if factor is None else colors * (np.asarray(factor, np.float32) / np.float32(255))
+    if getattr(material, "alphaMode", None) in (None, "OPAQUE"):
+        found = np.concatenate([found[:, :3], np.ones((len(found), 1), np.float32)], axis=1)
+    return found
 
 
 def _cloud(cloud: Any, where: str) -> Part:

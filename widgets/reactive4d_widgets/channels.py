@@ -12,7 +12,7 @@ import numpy as np
 from reactive4d.model.drawings import strokes
 from reactive4d.model.forms import Base, Made
 from reactive4d.model.objects import Object
-from reactive4d.model.palettes import sources_of
+from reactive4d.model.palettes import pieces_of
 from reactive4d.model.stacks import base_of
 from reactive4d.model.surfaces import paints_of, surface_part
 from reactive4d.signals.facade import Signal
@@ -144,7 +144,7 @@ def _topology(obj: Object) -> Any:
     form = obj.form.now()
     if form.part("faces") is not None:
         base = base_of(obj, obj.kind.now())
-        groups = sources_of(obj) if base.part("colors") is not None else None
+        groups = pieces_of(obj) if base.part("colors") is not None else None
         return surface_part(obj, "faces"), surface_part(obj, "weld"), groups
     lines = form.part("lines")
     points = form.part("points")

@@ -22,6 +22,7 @@ from reactive4d_widgets.renderers import Bar, bar_of, camera_of, lamps_of
 __all__ = ["Staged", "staged"]
 
 Array = NDArray[Any]
+POINTS, WIRES, SURFACE = 0, 1, 2  # as what VTK draws an actor
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,9 +147,7 @@ def _mesh(actor: Any, mapper: Any, missing: list[str]) -> Object | None:
     data = pv.wrap(given).copy(deep=False)
     prop = actor.GetProperty()
     colors, is_by_points = _mapped(mapper, data)
-    if colors is None and actor.GetTexture() is not None:
-        missing.append("pictures on surfaces, but for the colours of their points")
-        colors, is_by_points = _sampled(actor.GetTexture(), data), True
+    uv, texture = data.active_texture_coordinates, _texture(actor) if colors is None else None
     data.clear_data()
     data.set_active_scalars(None)
     if colors is not None:
@@ -156,13 +155,20 @@ def _mesh(actor: Any, mapper: Any, missing: list[str]) -> Object | None:
     look: dict[str, Any] = {"color": prop.GetColor(), "opacity": prop.GetOpacity()}
     scalars: Any = "paint" if colors is not None else False
     style = prop.GetRepresentation()
-    if style == 0:
+    is_pictured = style == SURFACE and uv is not None and texture is not None
+    if texture is not None and not is_pictured:
+        missing.append("pictures on what is no surface, or has no texture coordinates")
+    if style == POINTS:
         return from_pyvista(
             pv.PointSet(data.points), scalars=colors if colors is not None and is_by_points else False, **look
         )
-    if style == 1:
+    if style == WIRES:
         return from_pyvista(_edges(data), scalars=scalars, **look)
-    surface = from_pyvista(data, scalars=scalars, **look)
+    if is_pictured:
+        data.active_texture_coordinates = uv
+        surface = from_pyvista(data, texture=texture, opacity=prop.GetOpacity())
+    else:
+        surface = from_pyvista(data, scalars=scalars, **look)
     if not prop.GetEdgeVisibility():
         return surface
     edges = _edges(data)
@@ -196,17 +202,12 @@ def _mapped(mapper: Any, data: Any) -> tuple[Array | None, bool]:
     return colors, is_by_points
 
 
-def _sampled(texture: Any, data: Any) -> Array | None:
-    """The colours of a picture at the points of a surface."""
-    uv = data.active_texture_coordinates
-    if uv is None or texture.GetInput() is None:
-        return None
-    picture = np.asarray(texture.to_array())
-    height, width = picture.shape[:2]
-    columns = np.clip(np.rint((np.asarray(uv)[:, 0] % 1.0000001) * (width - 1)), 0, width - 1).astype(int)
-    rows = np.clip(np.rint((1.0 - np.asarray(uv)[:, 1] % 1.0000001) * (height - 1)), 0, height - 1).astype(int)
-    found = picture[rows, columns]
-    return np.repeat(found[:, None], 3, axis=1) if found.ndim == 1 else found[:, :4].astype(np.uint8)
+def _texture(actor: Any) -> Any:
+    """The picture on an actor; None where there is none."""
+    found = actor.GetTexture() or actor.GetProperty().GetTexture("albedoTex")
+    if found is not None:
+        found.Update()
+    return None if found is None or found.GetInput() is None else found
 
 
 def _edges(data: Any) -> Any:

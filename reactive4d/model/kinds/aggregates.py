@@ -79,7 +79,7 @@ def _together(obj: Object) -> Mesh:
     count = 0
     for member in _solid_members(obj):
         mesh = _bare(member)
-        own = sources_of(member)
+        own = groups_of(member)
         numbers = np.zeros(len(mesh.faces), np.int32) if own is None else own
         sources.append(numbers + np.int32(count))
         count += _many(member)
@@ -153,6 +153,20 @@ def paints_of(obj: Object) -> list[Any]:
     # A solid that was imported has sources up to the last one of which there are faces.
     count = int(sources.max(initial=0)) + 1
     return [*paints[:count], *[obj.paint.now()] * (count - len(paints))]
+
+
+def owners_of(obj: Object) -> list[int]:
+    """Of which of the objects that it is made of each source of an object's solid is, as `paints_of` has them."""
+    sources = sources_of(obj)
+    parts = None if sources is None else _parts(obj, obj.form.now().base.kind)
+    if sources is None or parts is None:
+        return [0] * _many(obj) if sources is None else list(range(_many(obj)))
+    found: list[int] = []
+    for part in parts:
+        start = max(found, default=-1) + 1
+        found += [start + number for number in owners_of(part)]
+    rest = int(sources.max(initial=0)) + 1 - len(found)
+    return [*found, *[max(found, default=-1) + 1] * rest]
 
 
 def _painted(obj: Object) -> Any:

@@ -233,7 +233,7 @@ def test_bad_meshes_are_refused_at_the_border(make: Any, said: str):
 
 
 def test_what_is_not_there_is_refused_by_name():
-    """Arrays, maps, times, pictures."""
+    """Arrays, maps, times."""
     ball = pv.Sphere()
     ball["names"] = ["a"] * ball.n_points
     with pytest.raises(r4.UnknownNameError, match="'Normal'"):
@@ -253,8 +253,6 @@ def test_what_is_not_there_is_refused_by_name():
     for time in ("0", np.nan, np.inf, [0]):
         with pytest.raises(r4.TimeError, match=r"time of a key in seconds|a key cannot stand at"):
             r4.from_pyvista([ball], times=[time])  # pyright: ignore[reportArgumentType]
-    with pytest.raises(r4.Reactive4dError, match="not supported"):
-        r4.from_pyvista(ball, texture=pv.numpy_to_texture(np.zeros((2, 2, 3), np.uint8)))  # pyright: ignore
 
 
 @pytest.mark.parametrize("cmap", [["red", "no colour"], [], [(0, 0, 255)], [(0, np.nan, 0)], 5])

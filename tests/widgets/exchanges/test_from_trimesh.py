@@ -36,7 +36,7 @@ def test_colours_of_faces_and_of_points_are_kept():
     ball = trimesh.creation.icosphere(1)
     ball.visual.vertex_colors = np.tile([0, 255, 0, 255], (len(ball.vertices), 1)).astype(np.uint8)
     assert len(drawn(r4.from_trimesh(ball)).attributes["colors"]) == len(ball.vertices)
-    picture = Image.new("RGB", (4, 4), (0, 0, 255))
+    picture = Image.new("RGB", (2, 2), (0, 0, 255))
     uv = np.random.default_rng(0).random((len(ball.vertices), 2))
     ball.visual = trimesh.visual.TextureVisuals(uv=uv, image=picture)
     found = drawn(r4.from_trimesh(ball))
