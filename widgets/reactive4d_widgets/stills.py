@@ -109,9 +109,10 @@ def pictured(
     shadows: bool = True,
     parameters: Mapping[str, Any] | None = None,
     bounds: Any = None,
+    ratio: float | None = None,
     **values: Any,
 ) -> Any:
-    """The same picture as an image of Pillow.
+    """The same picture as an image of Pillow, of which `ratio` pixels may be one of a label's height.
 
     >>> import reactive4d as r4
     >>> pictured(r4.Scene(ball=r4.Sphere()), size=(320, 240), background="dark").getpixel((0, 0))
@@ -125,7 +126,7 @@ def pictured(
     theme = theme_of(background)
     given = {**(parameters or {}), **values}
     frame, view, box = seen(subject, t, aspect=width / height, camera=camera, parameters=given, bounds=bounds)
-    with Stage(size=(width, height), theme=theme, edges=edges, shadows=shadows) as stage:
+    with Stage(size=(width, height), theme=theme, edges=edges, shadows=shadows, ratio=ratio) as stage:
         return Image.fromarray(stage.drawn(frame, view, bounds=box))
 
 

@@ -29,6 +29,7 @@ from reactive4d_widgets.themes import THEMES
 __all__ = ["EMPTY", "Baking", "Pantry", "Still", "Wish", "meant", "opening"]
 
 SIZE = (1280, 800)  # of a still picture, pixels
+HEIGHT = 460  # of a figure on a page, where its letters are as large as they are said to be
 QUALITY = 75  # of 100: nobody sees a difference, and two pictures take little more than one at 88 did
 EMPTY = "empty"  # the picture of what was not drawn yet
 LIMIT = 20_000_000  # bytes of one figure
@@ -244,6 +245,7 @@ def _drawing(plan: Plan, baking: Baking, point: Mapping[str, Any], given: Mappin
         camera = {key: manifest["view"][key] for key in ("position", "target", "up", "fov")}
     looks: Any = {key: manifest["options"][key] for key in ("edges", "shadows") if key in manifest["options"]}
     looks |= {"camera": camera, "parameters": given, "bounds": manifest["bounds"]}
+    looks["ratio"] = SIZE[1] / HEIGHT
     return lambda theme: pictured(plan.subject.thing, t=t, size=SIZE, background=theme, **looks)
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 
 import reactive4d as r4
 from reactive4d_widgets.captions import places
-from reactive4d_widgets.stills import poster, render, seen
+from reactive4d_widgets.stills import pictured, poster, render, seen
 from reactive4d_widgets.views import View
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -211,6 +211,15 @@ def test_a_label_can_be_read_whatever_is_behind_it(background: str):
     plain, red = [drawn(scene, camera=FRONT, background=background) for scene in scenes]
     assert np.abs(plain - plain[0, 0]).max() > 180
     assert np.abs(red - (255, 0, 0)).max(axis=2).min() < 30
+
+
+def test_a_picture_that_is_shown_smaller_has_larger_letters():
+    """As many pixels for each of theirs as one says."""
+    scene = r4.Scene(label=r4.Label("HH", height=32, color="black"))
+    pictures = [pictured(scene, size=SIZE, camera=FRONT, ratio=ratio) for ratio in (2, 1)]
+    large, small = [inked(np.asarray(picture).astype(np.int64)) for picture in pictures]
+    heights = [np.ptp(ink.nonzero()[0]) for ink in (large, small)]
+    assert heights[0] == pytest.approx(2 * heights[1], rel=0.15)
 
 
 def test_a_label_behind_the_eye_or_without_text_is_not_written():

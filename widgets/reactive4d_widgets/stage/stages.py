@@ -39,6 +39,8 @@ class Stage:
         edges: whether creases are drawn.
         shadows: whether things throw shadows.
         plain: whether things are shown in their plain colours: without light, edges and smooth borders.
+        ratio: how many pixels of the picture are one of a label's height and of a line's width; by default one,
+            and more where the picture is higher than 600.
 
     Attributes:
         touched: what the last picture touched of each object, by its name: "actors" (others are there now), "shape",
@@ -66,13 +68,14 @@ class Stage:
         edges: bool = True,
         shadows: bool = True,
         plain: bool = False,
+        ratio: float | None = None,
     ) -> None:
         width, height = size
         self.size = size
         self.touched: dict[str, tuple[str, ...]] = {}
         self._theme = theme
         self._plain = plain
-        self._ratio = max(1.0, height / 600.0)
+        self._ratio = max(1.0, height / 600.0) if ratio is None else ratio
         # What is drawn larger and made smaller has smooth edges, lines too, on every card.
         self._finer = 1 if plain or max(width, height) * 2 > LARGEST else 2
         self._shadows = shadows and not plain
