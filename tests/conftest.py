@@ -39,16 +39,12 @@ def _missing(said: str) -> None:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """Chromium for the tests of one file, so that nothing of it is left when others run."""
-    from reactive4d_apps.browsers import FLAGS, chromium, driver
+    from reactive4d_apps.browsers import launched, missing
 
-    path, playing = chromium(), driver()
-    if path is None or playing is None:
-        what = "Chromium" if path is None else "Playwright"
-        _missing(f"there is no {what} here; apt-get install chromium; pip install '.[test]'")
-    with playing.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+    if missing() is not None:
+        _missing(f"there is no {missing()} here; apt-get install chromium; pip install '.[test]'")
+    with launched() as started:
         yield started
-        started.close()
 
 
 @pytest.fixture(scope="session")

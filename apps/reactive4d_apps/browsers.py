@@ -1,10 +1,12 @@
 """Browsers: a page is opened and looked at by a program, and noted down as a picture."""
 
 import shutil
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-__all__ = ["FLAGS", "NEAR", "chromium", "driver", "photographed"]
+__all__ = ["NEAR", "chromium", "launched", "missing", "photographed"]
 
 # Mesa's llvmpipe through EGL: no display and no graphics card, and twice as fast as the software that Chromium brings.
 FLAGS = (
@@ -38,6 +40,29 @@ def driver() -> Any:
     return sync_api
 
 
+def missing() -> str | None:
+    """What is not here of what opens pages: "Chromium" or "Playwright"; None where both are."""
+    return "Chromium" if chromium() is None else "Playwright" if driver() is None else None
+
+
+@contextmanager
+def launched() -> Generator[Any]:
+    """Chromium, with OpenGL, for as long as the block lasts.
+
+    Raises:
+        LookupError: something is missing here.
+    """
+    lacking = missing()
+    if lacking is not None:
+        raise LookupError(f"there is no {lacking} here")
+    with driver().sync_playwright() as playwright:
+        browser: Any = playwright.chromium.launch(executable_path=chromium(), args=list(FLAGS))
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
 def photographed(page: Path | str, picture: Path, *, size: tuple[int, int] = (1100, 1000)) -> list[str]:
     """Open a page in Chromium, wait until its figures live, and write what is seen.
 
@@ -52,17 +77,13 @@ def photographed(page: Path | str, picture: Path, *, size: tuple[int, int] = (11
     Raises:
         LookupError: there is no Chromium here, or nothing to drive it.
     """
-    path, playing = chromium(), driver()
-    if path is None or playing is None:
-        raise LookupError("there is no Chromium here, or no Playwright")
     said: list[str] = []
-    with playing.sync_playwright() as playwright:
-        browser: Any = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+    with launched() as browser:
+        is_file = isinstance(page, Path)
+        window = browser.new_page(viewport={"width": size[0], "height": size[1]}, offline=is_file)
+        address = page.resolve().as_uri() if isinstance(page, Path) else page
+        _listen(window, said, NEAR if is_file else (*NEAR, address))
         try:
-            is_file = isinstance(page, Path)
-            window = browser.new_page(viewport={"width": size[0], "height": size[1]}, offline=is_file)
-            address = page.resolve().as_uri() if isinstance(page, Path) else page
-            _listen(window, said, NEAR if is_file else (*NEAR, address))
             window.goto(address)
             window.wait_for_function(
                 "() => { const all = [...document.querySelectorAll('r4d-figure')];"
@@ -71,10 +92,8 @@ def photographed(page: Path | str, picture: Path, *, size: tuple[int, int] = (11
             )
             window.wait_for_timeout(REST)
             window.screenshot(path=picture)
-        except playing.Error as error:
+        except driver().Error as error:
             said.append(str(error).splitlines()[0])
-        finally:
-            browser.close()
     return said
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import reactive4d as r4
 from reactive4d.devices import device
-from reactive4d_apps.browsers import chromium, driver, photographed
+from reactive4d_apps.browsers import missing, photographed
 from reactive4d_apps.openings import opened
 from reactive4d_apps.pages import summary
 from reactive4d_apps.phrases import paragraph
@@ -123,7 +123,7 @@ def served(
 
 def _looked_at(place: Path | str, picture: Path, scene: r4.Scene, width: int) -> Iterator[str]:
     """Draw what a reader sees, with the best that is here."""
-    if chromium() is None or driver() is None:
+    if missing() is not None:
         told = "There is no Chromium with Playwright here"
         if not can_draw():
             yield from paragraph(f"{told}, and nothing else to draw with.", width)

@@ -13,7 +13,7 @@ from typing import Any
 import param
 
 import reactive4d as r4
-from reactive4d_apps.browsers import FLAGS, chromium, driver
+from reactive4d_apps.browsers import launched, missing
 
 from .paging import BY_HAND, STEADY, bundled
 from .reports import Section, Target, duration, ratio
@@ -86,21 +86,17 @@ class Ball(r4.Illustration):
 def dragging(run: Run) -> Section:
     """What it takes to follow a slider."""
     section = Section("dragging", "A live slider, from the wish to the frame", ("points", "ours", "three.js", "ratio"))
-    playing, path = driver(), chromium()
-    if playing is None or path is None:
+    if missing() is not None:
         section.notes.append("Without Chromium and Playwright nothing was opened.")
         return section
-    with tempfile.TemporaryDirectory() as name, playing.sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as name:
         code = bundled("bare_live.js", Path(name))
         if code is None:
             section.notes.append("Without the packages of widgets/js there is no bare page to compare with.")
             return section
-        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        try:
+        with launched() as browser:
             for segments in SIZES:
                 _measure(run, section, browser, segments, code)
-        finally:
-            browser.close()
     return section
 
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 import reactive4d as r4
-from reactive4d_apps.browsers import FLAGS, chromium, driver
+from reactive4d_apps.browsers import launched, missing
 from reactive4d_widgets.creases import split
 from reactive4d_widgets.packings import unpacked
 
@@ -91,18 +91,13 @@ def paging(run: Run) -> Section:
         folder = Path(name)
         scene, page = _blob_page(section, folder)
         _motion(section, folder)
-        playing, path = driver(), chromium()
-        if playing is None or path is None:
+        if missing() is not None:
             section.notes.append("Without Chromium and Playwright nothing was opened.")
             return section
-        with playing.sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-            try:
-                _opening(run, section, browser, page)
-                _scrubbing(run, section, browser, scene, page, folder)
-                _crowds(section, browser, folder)
-            finally:
-                browser.close()
+        with launched() as browser:
+            _opening(run, section, browser, page)
+            _scrubbing(run, section, browser, scene, page, folder)
+            _crowds(section, browser, folder)
     return section
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import param
 
 import reactive4d as r4
-from reactive4d_apps.browsers import FLAGS, chromium, driver
+from reactive4d_apps.browsers import launched, missing
 
 from .reports import Section, Target
 from .runs import Run
@@ -71,19 +71,14 @@ def playing(run: Run) -> Section:
     """Frames on time."""
     head = ("round trip", "frames on time, asked ahead", "before", "late by, asked ahead", "before")
     section = Section("playing", "Frames of a live figure that plays", head)
-    tests, path = driver(), chromium()
-    if tests is None or path is None:
+    if missing() is not None:
         section.notes.append("Without Chromium and Playwright nothing was opened.")
         return section
     from reactive4d_apps.serving import serve
 
-    with serve(Trembling, block=False, times=(0.0, 4.0)) as server, tests.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        try:
-            for number, trip in enumerate(TRIPS):
-                _measure(run, section, browser, server.address, number, trip)
-        finally:
-            browser.close()
+    with serve(Trembling, block=False, times=(0.0, 4.0)) as server, launched() as browser:
+        for number, trip in enumerate(TRIPS):
+            _measure(run, section, browser, server.address, number, trip)
     return section
 
 

@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from reactive4d_apps.browsers import FLAGS, chromium, driver
+from reactive4d_apps.browsers import launched, missing
 
 from .reports import Section, Target
 from .runs import Run
@@ -73,17 +73,12 @@ class Trace:
 def rerunning(run: Run) -> Section:
     """What two hundred runs of a cell leave behind."""
     section = Section("rerunning", "A cell that is run again", ("what", "before", "after", "more"))
-    playing, path = driver(), chromium()
-    if playing is None or path is None:
+    if missing() is not None:
         section.notes.append("Without Chromium and Playwright nothing was run.")
         return section
     times = 20 if run.quick else TIMES
-    with playing.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-        try:
-            before, after = traced(browser, [5 if run.quick else WARM, times])
-        finally:
-            browser.close()
+    with launched() as browser:
+        before, after = traced(browser, [5 if run.quick else WARM, times])
     for what, old, new in (
         ("kernel, memory", before.kernel["rss"], after.kernel["rss"]),
         ("page, heap after a collection", before.page["heap"], after.page["heap"]),

@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from reactive4d_apps.browsers import FLAGS, chromium, driver
+from reactive4d_apps.browsers import launched, missing
 
 from .reports import Section, Target, duration, ratio
 from .runs import Run
@@ -82,33 +82,28 @@ class Program:
 def serving(run: Run) -> Section:
     """What readers cost."""
     section = Section("serving", f"{READERS} readers of one served figure", ("what", "measured", "against", "ratio"))
-    playing, path = driver(), chromium()
     server = Program("tests.benchmarks.crowded")
     crowd: Program | None = None
     try:
         address = server.hear()
-        if playing is None or path is None:
+        if missing() is not None:
             section.notes.append("Without Chromium and Playwright nothing was opened.")
             return section
-        with playing.sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
-            try:
-                page = browser.new_page(viewport={"width": 800, "height": 700})
-                page.goto(address)
-                page.wait_for_function(ALIVE)
-                page.evaluate(SLIDE, [0.0, 3.0])
-                before, begun = server.memory(), [int(word) for word in server.ask("count").split()]
-                crowd = Program("tests.benchmarks.crowds", address, str(READERS))
-                crowd.hear()
-                alone, among = _turns(run, page, crowd)
-                crowd.ask("go")
-                crowd.ask(f"kill {KILLED}")
-                page.evaluate(SLIDE, [0.5, 3.0])
-                told: dict[str, Any] = json.loads(crowd.ask("end"))
-                each = (server.memory() - before) / READERS
-                counted = [int(word) for word in server.ask("count").split()]
-            finally:
-                browser.close()
+        with launched() as browser:
+            page = browser.new_page(viewport={"width": 800, "height": 700})
+            page.goto(address)
+            page.wait_for_function(ALIVE)
+            page.evaluate(SLIDE, [0.0, 3.0])
+            before, begun = server.memory(), [int(word) for word in server.ask("count").split()]
+            crowd = Program("tests.benchmarks.crowds", address, str(READERS))
+            crowd.hear()
+            alone, among = _turns(run, page, crowd)
+            crowd.ask("go")
+            crowd.ask(f"kill {KILLED}")
+            page.evaluate(SLIDE, [0.5, 3.0])
+            told: dict[str, Any] = json.loads(crowd.ask("end"))
+            each = (server.memory() - before) / READERS
+            counted = [int(word) for word in server.ask("count").split()]
     finally:
         for program in (server, crowd):
             if program is not None:
