@@ -95,6 +95,19 @@ def test_a_build_waits_until_another_one_is_done(plain: Book):
     assert build.ok, build.complaints
 
 
+def test_a_build_tells_how_far_it_is(plain: Book):
+    """Its author, who waits; of a book of a page or two there is nothing to tell."""
+    assert came(making(plain.folder))[0] == []
+    for i in range(5):
+        plain.write(f"# Page {i}\n", f"page{i}.md")
+    plain.write("# A page\n\n```{toctree}\n:glob:\n\npage*\n```\n")
+    (plain.folder / "build" / EDITION).unlink()
+    lines, build = came(making(plain.folder, strict=True))
+    assert build.ok, build.complaints
+    assert "Reading the pages: 50 % (page1)" in lines
+    assert "Writing the pages: 83 % (page3)" in lines
+
+
 def test_two_builds_at_once_both_come_to_their_end(plain: Book):
     """Neither finds what the other one has half done."""
     words = [sys.executable, "-W", "error", "-m", "reactive4d", "book", "build", str(plain.folder), "--strict"]

@@ -19,7 +19,7 @@ from reactive4d_apps.books.locks import Lock
 from reactive4d_apps.books.runs import run
 from reactive4d_apps.phrases import paragraph, sized
 
-__all__ = ["EDITION", "FIGURES", "TREES", "Build", "built", "made", "making", "source_of", "standing"]
+__all__ = ["EDITION", "FIGURES", "TREES", "Build", "built", "made", "making", "need", "source_of", "standing"]
 
 TREES = "doctrees"
 FIGURES = "figures-{}.json"  # among them, for each of Sphinx's builders
@@ -53,6 +53,23 @@ class Build:
     figures: int = 0
     size: int = 0
     draft: bool = False
+
+
+def need(*modules: str) -> None:
+    """Make sure that libraries are installed.
+
+    Raises:
+        Reactive4dError: one is not.
+
+    >>> need("json", "no_such_library")
+    Traceback (most recent call last):
+    ...
+    reactive4d.errors.Reactive4dError: no_such_library is not installed
+    hint: pip install 'reactive4d[book]'
+    """
+    for module in modules:
+        if find_spec(module) is None:
+            raise hint(Reactive4dError(f"{module} is not installed"), "pip install 'reactive4d[book]'")
 
 
 def source_of(folder: Path) -> Path:
@@ -111,8 +128,7 @@ def making(
         Reactive4dError: Sphinx is not installed.
     """
     source = source_of(folder)
-    if find_spec("sphinx") is None or find_spec("myst_parser") is None:
-        raise hint(Reactive4dError("Sphinx and MyST are not installed"), "pip install 'reactive4d[book]'")
+    need("sphinx", "myst_parser")
     kept = work or source / "build"
     site, trees = out or kept / builder, kept / TREES
     kept.mkdir(parents=True, exist_ok=True)

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Generator, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -14,8 +15,9 @@ from reactive4d_apps.books.locks import Lock
 __all__ = ["run"]
 
 STEP = 20  # per cent between two lines
+PAUSE = 3.0  # seconds after which there is one nevertheless
 _COLORS = re.compile(r"\x1b\[[0-9;]*m")
-_PROGRESS = re.compile(r"(reading|writing) \w+\.\.\. \[ *(\d+)%\]")
+_PROGRESS = re.compile(r"(reading|writing) \w+\.\.\. \[ *(\d+)%\] *(\S*)")
 
 
 def run(words: Sequence[str], source: Path, lock: Lock) -> Generator[str, None, tuple[int, tuple[str, ...]]]:
@@ -49,17 +51,17 @@ def run(words: Sequence[str], source: Path, lock: Lock) -> Generator[str, None, 
 
 def _heard(stream: IO[bytes]) -> Generator[str, None, str]:
     """How far it is; in the end the last line."""
-    line, reached = "", 0
+    line, reached, told = "", 0, time.monotonic()
     for raw in stream:
         line = _COLORS.sub("", raw.decode("utf-8", "replace")).strip() or line
         found = _PROGRESS.match(line)
         if found is None:
             continue
-        percent = int(found[2])
+        percent, now = int(found[2]), time.monotonic()
         reached = min(reached, percent)  # from reading to writing
-        if reached + STEP <= percent < 100:
-            reached = percent - percent % STEP
-            yield f"{found[1].capitalize()} the pages: {reached} %"
+        if percent < 100 and (reached + STEP <= percent or told + PAUSE <= now):
+            reached, told = percent - percent % STEP, now
+            yield f"{found[1].capitalize()} the pages: {percent} % ({found[3]})"
     return line
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reactive4d.errors import Reactive4dError
-from reactive4d_apps.books.builds import TREES, Build, made, making, standing
+from reactive4d_apps.books.builds import TREES, Build, made, making, need, standing
 from reactive4d_apps.books.editions import files_of
 from reactive4d_apps.phrases import paragraph
 
@@ -71,8 +71,9 @@ def opened(
 
     Raises:
         UnknownNameError: there is no book.
-        Reactive4dError: it cannot be built at all, or the port is taken.
+        Reactive4dError: it cannot be built at all, the port is taken, or a library is not installed.
     """
+    need("aiohttp", "trame", "sphinx", "myst_parser")
     from reactive4d_apps.books.libraries import Library
     from reactive4d_apps.books.shelves import Shelf, entries_of
     from reactive4d_apps.serving.servers import Server
