@@ -146,10 +146,8 @@ class Notebook:
 
     def run(self, i: int) -> None:
         """Run a cell, and wait for its end."""
-        cell = self.cell(i)
-        cell.scroll_into_view_if_needed()
-        cell.locator(".jp-InputPrompt").click()
-        prompt = cell.locator(".jp-InputPrompt")
+        prompt = self.cell(i).locator(".jp-InputPrompt")
+        prompt.click()  # it comes into view, and is found again if it is put in anew meanwhile
         before = prompt.inner_text()
         while prompt.inner_text() == before:  # while a kernel is being found, keys may be lost
             self.page.keyboard.press("Control+Enter")
@@ -184,3 +182,16 @@ class Notebook:
         """The cells as they were saved."""
         with urlopen(f"{self.address}/api/contents/x.ipynb", timeout=60) as found:
             return json.load(found)["content"]["cells"]
+
+
+@contextmanager
+def opened(browser: Any, program: str, folder: Path, cells: list[str]) -> Iterator[Notebook]:
+    """A notebook with its first two cells run, the second of which shows a figure."""
+    with served(program, folder, cells) as address:
+        context = browser.new_context(viewport={"width": 1280, "height": 1000})
+        made = Notebook(context.new_page(), program, address)
+        made.run(0)
+        made.run(1)
+        made.wait("(f) => f.snapshot !== null")
+        yield made
+        context.close()

@@ -1,5 +1,6 @@
 """A figure in a cell of a real JupyterLab and a real Notebook 7: driven, edited, run again, saved, without a kernel."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -9,7 +10,8 @@ pytest.importorskip("anywidget")
 pytest.importorskip("jupyterlab")
 pytest.importorskip("notebook")
 
-from labs import FIGURES, Notebook, served
+import labs
+from labs import FIGURES, Notebook
 
 CELLS = [
     """
@@ -42,7 +44,13 @@ hand
 """,
     "hand.value = 2.5",
     "print('told', told.value)",
+    "Pendulum(length=0.5).show(save=True)",
 ]
+# What the notebook kept of the figure in its last cell; it wakes when no kernel answers and somebody looks at it.
+LOOK = """[...document.querySelectorAll("[data-r4d-poster]")].at(-1)?.scrollIntoView()"""
+KEPT = """() => [...document.querySelectorAll("[data-r4d-poster] .r4d-cell")]
+  .map((cell) => cell.shadowRoot.querySelector("r4d-figure"))
+  .find((figure) => figure?.snapshot?.parameters.length === 0.5)"""
 
 
 @pytest.fixture(scope="module", params=["jupyterlab", "notebook"])
@@ -50,15 +58,8 @@ def opened(
     request: pytest.FixtureRequest, browser: Any, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Notebook]:
     """The notebook, with its first two cells run."""
-    folder = tmp_path_factory.mktemp(request.param)
-    with served(request.param, folder, CELLS) as address:
-        context = browser.new_context(viewport={"width": 1280, "height": 1000})
-        made = Notebook(context.new_page(), request.param, address)
-        made.run(0)
-        made.run(1)
-        made.wait("(f) => f.snapshot !== null")
+    with labs.opened(browser, request.param, tmp_path_factory.mktemp(request.param), CELLS) as made:
         yield made
-        context.close()
 
 
 def test_a_figure_lives_in_a_cell_and_its_poster_steps_back(opened: Notebook) -> None:
@@ -126,14 +127,25 @@ def test_the_last_line_of_a_cell_is_shown(opened: Notebook) -> None:
     )
 
 
-def test_what_a_saved_notebook_keeps_is_seen_without_a_kernel(opened: Notebook) -> None:
-    """The picture and, where the notebook is trusted, the figure that scrubs."""
+def test_what_a_saved_notebook_keeps_is_seen_and_scrubs_without_a_kernel(opened: Notebook) -> None:
+    """Opened again where no kernel can be had: the pictures, and of a figure that was kept whole, all its times."""
+    opened.run(9)
     outputs: list[Any] = []
-    while not outputs or "image/png" not in outputs[0].get("data", {}):
+    while not outputs or "data-r4d-table" not in "".join(outputs[0].get("data", {}).get("text/html", "")):
         opened.save()
         opened.page.wait_for_timeout(100)
-        outputs = opened.saved()[1]["outputs"]
+        outputs = opened.saved()[9]["outputs"]
     assert "crimson sphere" in "".join(outputs[0]["data"]["text/plain"])
-    other = Notebook(opened.page.context.new_page(), opened.program, opened.address, is_idle=False)
-    other.page.locator("[data-r4d-poster] img[alt*='crimson sphere']").first.wait_for(state="attached")
-    other.page.close()
+    page = opened.page.context.new_page()
+    for what in ("sessions", "kernels"):
+        page.route(re.compile(f"/api/{what}"), lambda route: route.abort())
+    other = Notebook(page, opened.program, opened.address, is_idle=False)
+    page.locator("[data-r4d-poster] img[alt*='crimson sphere']").first.wait_for(state="attached")
+    page.wait_for_function(f"() => {{ {LOOK}; return ({KEPT})(); }}", polling=500)
+    first = page.evaluate(f"() => [...({KEPT})().snapshot.nodes.get('cloth').points.a.array]")
+    page.evaluate(f"() => ({KEPT})().reader.change({{ time: 4.5 }})")
+    page.wait_for_function(f"() => ({KEPT})().snapshot.time === 4.5")
+    assert page.evaluate(f"() => [...({KEPT})().snapshot.nodes.get('cloth').points.a.array]") != first
+    assert page.evaluate(f"() => ({KEPT})().snapshot.nodes.get('bob').matrix[11]") == pytest.approx(-0.5)
+    assert other.strangers == []
+    page.close()

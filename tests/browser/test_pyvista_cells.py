@@ -8,7 +8,8 @@ import pytest
 pytest.importorskip("anywidget")
 pytest.importorskip("jupyterlab")
 
-from labs import Notebook, served
+import labs
+from labs import Notebook
 
 CELLS = [
     """
@@ -36,14 +37,8 @@ def plotter():
 @pytest.fixture(scope="module")
 def opened(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Notebook]:
     """The notebook, with its first two cells run."""
-    with served("jupyterlab", tmp_path_factory.mktemp("pyvista"), CELLS) as address:
-        context = browser.new_context(viewport={"width": 1280, "height": 1000})
-        made = Notebook(context.new_page(), "jupyterlab", address)
-        made.run(0)
-        made.run(1)
-        made.wait("(f) => f.snapshot !== null")
+    with labs.opened(browser, "jupyterlab", tmp_path_factory.mktemp("pyvista"), CELLS) as made:
         yield made
-        context.close()
 
 
 def test_the_meshes_of_a_plotter_are_the_nodes_of_a_figure(opened: Notebook) -> None:

@@ -76,7 +76,7 @@ class Herald:
             if not self._heard.wait(IDLE if is_calm else CALM):
                 if not is_calm:
                     is_calm = True
-                    self._settle()
+                    self._let("follow_keys")
                     continue
                 with self._lock:
                     if not self._heard.is_set():
@@ -87,20 +87,16 @@ class Herald:
             is_calm = False
             self.tell()
 
-    def _settle(self) -> None:
-        for model in list(self._models):
-            with contextlib.suppress(Exception):
-                model.follow_keys()
-            for reader in model.readers:
-                with contextlib.suppress(Exception):
-                    reader.flush()
-
     def tell(self) -> None:
         """Tell all readers of all models, on the thread that asks."""
+        self._let("refresh")
+
+    def _let(self, look: str) -> None:
+        """Let each model look at what was edited, and tell its readers."""
         for model in list(self._models):
             # What goes wrong with one model is told to whoever asks it; the others go on.
             with contextlib.suppress(Exception):
-                model.refresh()
+                getattr(model, look)()
             for reader in model.readers:
                 with contextlib.suppress(Exception):
                     reader.flush()
