@@ -65,27 +65,9 @@ def _near(stays: Callable[[float], bool], crossing: float, t: float, last: float
 
 def start(stays: Callable[[float], bool], t: float, lo: float, crossings: Iterable[float] = ()) -> float:
     """The earliest time, at least `lo`, from which it is what it is at `t`."""
-    before = math.nextafter(t, -INF)
-    if before < lo or not stays(before):
-        return max(t, lo)
-    for crossing in sorted(crossings, reverse=True):
-        if lo < crossing < t:
-            key = _key(crossing)
-            high = min(_float(key + 3), before)
-            if high < lo or not stays(high):
-                continue
-            for n in range(_key(high) - 1, key - 4, -1):
-                if _float(n) < lo:
-                    break
-                if not stays(_float(n)):
-                    return _float(n + 1)
-    if stays(lo):
-        return lo
-    bad, good = _key(lo), _key(before)
-    while good - bad > 1:
-        middle = (good + bad) // 2
-        if stays(_float(middle)):
-            good = middle
-        else:
-            bad = middle
-    return _float(good)
+    # The end, where time runs the other way.
+    hi = math.nextafter(-lo, INF)
+    found = end(lambda x: stays(-x), -t, hi, [-crossing for crossing in crossings])
+    if found < hi:
+        return math.nextafter(-found, INF) + 0.0
+    return lo if lo > -INF or stays(lo) else -_LARGEST  # an end is never infinite itself, a beginning may be

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from reactive4d.arrays import freeze
 from reactive4d.engine import Engine, moment, narrow
-from reactive4d.engine.frames import NEVER
 from reactive4d.engine.kinds import SOURCE
 from reactive4d.errors import ShapeError, hint
 from reactive4d.signals.colors import is_color_name
@@ -136,8 +135,6 @@ class Keys(Settable[T]):
             self._be_computed()
         else:
             self._be_source()
-            if self.own is not None:
-                self.own.hit = NEVER  # it has the stamps of another content
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """What the curve says."""

@@ -7,7 +7,6 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive4d.engine.frames import NEVER
 from reactive4d.signals.curves import Curve
 from reactive4d.signals.curves.areas import Area
 from reactive4d.signals.curves.differences import first_difference
@@ -56,8 +55,6 @@ class _OfKeys(Settable[Any]):
             self._be_computed()
         else:
             self._be_source()
-            if self.own is not None:
-                self.own.hit = NEVER  # it has the stamps of another content
 
     def sample(self, t: float) -> tuple[float, float, Any]:
         """What was worked out of the curve."""

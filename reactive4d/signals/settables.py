@@ -60,7 +60,7 @@ class Settable(Signal[T], Source):
         self.inputs = ()
         if self.own is not None:
             self.own.stamps = self.stamps
-            self.own.hit = NEVER
+            self.own.hit = NEVER  # it has the stamps of another content
 
     def _contents(self) -> Contents:
         own = self.own
