@@ -5,7 +5,7 @@ have read. Only what a Python function reads that was never run stays unseen.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from reactive4d.engine import Affine, Axis, Cell, TimeMap
@@ -22,7 +22,7 @@ from reactive4d.signals.warps import Follow
 if TYPE_CHECKING:
     from reactive4d.model.scenes import Scene
 
-__all__ = ["alive", "as_times", "key_times", "parameters_of", "span"]
+__all__ = ["alive", "as_times", "key_times", "parameters_of", "span", "walked"]
 
 INF = math.inf
 SOME = (0.0, 10.0)  # seconds, where no key says how long something takes
@@ -105,10 +105,25 @@ def parameters_of(scene: "Scene") -> tuple[Axis, ...]:
 def _reached(scene: "Scene") -> Iterator[tuple[Any, Maps]]:
     """Objects and signals below a scene, named ones too, each with the maps through which it is read, each way once."""
     scene.frame.valid(0.0)  # so that what Python functions read is remembered; what fails says so when it is asked
+    named = [value for value in scene.signals.values() if isinstance(value, Cell)]
+    return walked([*scene.values(), *named], _below)
+
+
+def walked(
+    starts: Iterable[Any], below: Callable[[Any, tuple[Any, ...]], Iterable[tuple[Any, tuple[Any, ...]]]]
+) -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """What can be reached, each thing once for each way of time maps through which it is.
+
+    Args:
+        starts: where one starts, without a map.
+        below: answers what lies directly below a thing that was reached through some maps, and through which that is.
+
+    >>> [thing for thing, _ in walked(["ab"], lambda word, maps: [(part, maps) for part in word if len(word) > 1])]
+    ['ab', 'a', 'b']
+    """
     done: set[tuple[int, tuple[int, ...]]] = set()
     kept: list[Any] = []  # what is looked at by its identity must not go away meanwhile
-    named = [value for value in scene.signals.values() if isinstance(value, Cell)]
-    todo: list[tuple[Any, Maps]] = [(root, ()) for root in reversed([*scene.values(), *named])]
+    todo: list[tuple[Any, tuple[Any, ...]]] = [(start, ()) for start in starts][::-1]
     while todo:
         thing, maps = todo.pop()
         key = id(thing), tuple(map(id, maps))
@@ -117,15 +132,19 @@ def _reached(scene: "Scene") -> Iterator[tuple[Any, Maps]]:
         done.add(key)
         kept.append((thing, maps))
         yield thing, maps
-        if type(thing) is tuple:
-            continue
-        for part, time_map in reversed(list(_parts(thing))):
-            if time_map is None:
-                todo.append((part, maps))
-            elif len(maps) < MOST_MAPS:
-                todo.append((part, (*maps, time_map)))
-                if isinstance(time_map, Repeat):
-                    todo.append(((time_map,), maps))
+        todo.extend(list(below(thing, maps))[::-1])
+
+
+def _below(thing: Any, maps: Maps) -> Iterator[tuple[Any, Maps]]:
+    if type(thing) is tuple:
+        return
+    for part, time_map in _parts(thing):
+        if time_map is None:
+            yield part, maps
+        elif len(maps) < MOST_MAPS:
+            if isinstance(time_map, Repeat):
+                yield (time_map,), maps
+            yield part, (*maps, time_map)
 
 
 def _parts(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:

@@ -19,7 +19,7 @@ from reactive4d.model.changes import LANES, Lane
 from reactive4d.model.channels import Channel as Asked
 from reactive4d.model.lanes import entry_of
 from reactive4d.model.objects import Object
-from reactive4d.model.reaches import alive
+from reactive4d.model.reaches import alive, walked
 from reactive4d.signals.choices import Choice
 from reactive4d.signals.keys import Keys
 from reactive4d.signals.settables import Settable
@@ -142,23 +142,15 @@ def _objects(content: Any) -> Iterator[Object]:
 
 
 def _walk(starts: Sequence[Any]) -> Iterator[tuple[Source, Maps]]:
-    done: set[tuple[int, tuple[int, ...]]] = set()
-    kept: list[Any] = []  # what is looked at by its identity must not go away meanwhile
-    todo: list[tuple[Any, Maps]] = [(start, ()) for start in alive(starts)]
-    while todo:
-        thing, maps = todo.pop()
-        key = id(thing), tuple(map(id, maps))
-        if key in done:
-            continue
-        done.add(key)
-        kept.append((thing, maps))
-        if isinstance(thing, Source):
-            yield thing, maps
-        for part, time_map in list(_below(thing)):
-            if time_map is None or ANYWHERE in maps:
-                todo.append((part, maps))
-            else:
-                todo.append((part, (*maps, time_map) if len(maps) < MOST_MAPS else (ANYWHERE,)))
+    return ((thing, maps) for thing, maps in walked(alive(starts), _reached) if isinstance(thing, Source))
+
+
+def _reached(thing: Any, maps: Maps) -> Iterator[tuple[Any, Maps]]:
+    for part, time_map in _below(thing):
+        if time_map is None or ANYWHERE in maps:
+            yield part, maps
+        else:
+            yield part, (*maps, time_map) if len(maps) < MOST_MAPS else (ANYWHERE,)
 
 
 def _below(thing: Any) -> Iterator[tuple[Any, TimeMap | None]]:
