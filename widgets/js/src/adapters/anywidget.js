@@ -8,7 +8,7 @@ import { baked } from "../transports/baked.js";
 import { comm } from "../transports/comm.js";
 import { make } from "../ui/elements.js";
 import { pageStyles } from "../ui/page-styles.js";
-import { define } from "./page.js";
+import { define } from "./figures.js";
 
 /**
  * @typedef {import("../ui/figure-element.js").FigureElement} FigureElement
@@ -38,7 +38,7 @@ export function widget({ model, el }) {
   el.append(shadow);
   const connect = () => comm(portOf(model), { onReopen: reopen });
   const reopen = () => {
-    figure.setAttribute("point", figure.write());
+    figure.stay();
     figure.transport = connect();
   };
   const { isSame, take } = synced(model, figure);

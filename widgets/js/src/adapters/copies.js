@@ -110,7 +110,7 @@ class Copies {
       close: () => { if (this.#held === transport) line.close(); },
     };
     this.#held = transport;
-    this.#stay();
+    this.#figure.stay();
     this.#figure.transport = transport;
     this.#figure.mark("Your copy", { name: "Back to what all see", act: () => this.#element.reset() });
   }
@@ -120,16 +120,10 @@ class Copies {
     const line = this.#line;
     this.#line = this.#held = null;
     if (line === null) return;
-    this.#stay();
+    this.#figure.stay();
     this.#figure.mark("");
     this.#places.share();
     line.close();
-  }
-
-  /** It opens where its reader is. */
-  #stay() {
-    const point = this.#figure.write();
-    if (point) this.#figure.setAttribute("point", point);
   }
 }
 

@@ -6,10 +6,7 @@
 
 import { baked } from "../transports/baked.js";
 import { socket } from "../transports/socket.js";
-import { ScriptElement } from "../ui/script-element.js";
-import { Addresses } from "./addresses.js";
-import { editable } from "./copies.js";
-import { define } from "./page.js";
+import { edited, figuresOf } from "./figures.js";
 import { lineOf } from "./trame.js";
 
 /**
@@ -24,14 +21,9 @@ import { lineOf } from "./trame.js";
  * @returns {Promise<void>} when all have been given who answers
  */
 export async function site(page) {
-  define();
-  const figures = () => /** @type {FigureElement[]} */ ([...page.querySelectorAll("r4d-figure")]);
-  const addresses = new Addresses(page.defaultView ?? window, figures);
   const server = page.querySelector('meta[name="r4d-live"]')?.getAttribute("content");
   const load = loader(page);
-  for (const figure of nearest(figures())) {
-    figure.addresses = addresses;
-    figure.addEventListener("r4d-live", () => addresses.open(figure), { once: true });
+  for (const figure of nearest(figuresOf(page))) {
     try {
       const source = new URL(figure.dataset.source ?? "", page.baseURI).href;
       const held = () => dataOf(load, source);
@@ -42,7 +34,7 @@ export async function site(page) {
         edited(page, figure, { share, copy: lineOf(base, figure.dataset.line, "copy") });
       } else figure.transport = baked(await held());
     } catch (error) {
-      figure.fail(`This figure cannot be shown. ${error instanceof Error ? error.message : error}`);
+      figure.refuse(error);
     }
   }
 }
@@ -55,8 +47,7 @@ export async function site(page) {
  */
 function live(figure, address, held) {
   const onReopen = () => {
-    const point = figure.write();
-    if (point) figure.setAttribute("point", point);
+    figure.stay();
     live(figure, address, held);
   };
   figure.transport = either(socket(address, { onReopen }), async () => {
@@ -64,20 +55,6 @@ function live(figure, address, held) {
     return baked(await held());
   });
   figure.dataset.state = "live";
-}
-
-/**
- * Let a reader edit the script of a figure, if the page has one for it.
- * @param {Document} page
- * @param {FigureElement} figure
- * @param {import("./copies.js").Places} places
- */
-function edited(page, figure, places) {
-  const scripts = /** @type {ScriptElement[]} */ ([...page.querySelectorAll("r4d-script")]);
-  const element = scripts.find((one) => one.getAttribute("figure") === figure.name);
-  if (!element) return;
-  if (!customElements.get("r4d-script")) customElements.define("r4d-script", ScriptElement);
-  editable(figure, element, places);
 }
 
 /**

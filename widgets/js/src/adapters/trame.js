@@ -5,10 +5,7 @@
  */
 
 import { socket } from "../transports/socket.js";
-import { ScriptElement } from "../ui/script-element.js";
-import { Addresses } from "./addresses.js";
-import { editable } from "./copies.js";
-import { define } from "./page.js";
+import { edited, figuresOf } from "./figures.js";
 
 /** @typedef {import("../ui/figure-element.js").FigureElement} FigureElement */
 
@@ -32,9 +29,8 @@ export function lineOf(base, name, way = "live") {
  */
 export function connect(figure, address) {
   const onReopen = () => {
-    const point = figure.write();
-    if (point) figure.setAttribute("point", point);
-    figure.transport = socket(address, { onReopen });
+    figure.stay();
+    connect(figure, address);
   };
   figure.transport = socket(address, { onReopen });
 }
@@ -45,20 +41,11 @@ export function connect(figure, address) {
  * @returns {FigureElement[]} in the order of the page
  */
 export function serve(page) {
-  define();
-  const figures = () => /** @type {FigureElement[]} */ ([...page.querySelectorAll("r4d-figure")]);
-  const addresses = new Addresses(page.defaultView ?? window, figures);
-  for (const figure of figures()) {
-    figure.addresses = addresses;
-    figure.addEventListener("r4d-live", () => addresses.open(figure), { once: true });
-    connect(figure, lineOf(page.baseURI, figure.name));
-  }
-  if (!customElements.get("r4d-script")) customElements.define("r4d-script", ScriptElement);
-  for (const element of /** @type {NodeListOf<ScriptElement>} */ (page.querySelectorAll("r4d-script"))) {
-    const figure = figures().find(({ name }) => name === element.getAttribute("figure"));
-    if (figure === undefined) continue;
+  const figures = figuresOf(page);
+  for (const figure of figures) {
     const share = () => connect(figure, lineOf(page.baseURI, figure.name));
-    editable(figure, element, { copy: lineOf(page.baseURI, figure.name, "copy"), share });
+    share();
+    edited(page, figure, { share, copy: lineOf(page.baseURI, figure.name, "copy") });
   }
-  return figures();
+  return figures;
 }

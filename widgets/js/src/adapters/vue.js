@@ -5,7 +5,7 @@
  * parameters, goes through trame's state, which all its clients share.
  */
 
-import { define } from "./page.js";
+import { define } from "./figures.js";
 import { connect, lineOf } from "./trame.js";
 
 /** @typedef {import("../ui/figure-element.js").FigureElement} FigureElement */

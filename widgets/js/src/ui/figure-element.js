@@ -118,7 +118,7 @@ export class FigureElement extends ElementBase {
     } catch (error) {
       if (turn !== this.#turn) return;
       session?.close();
-      this.fail(`This figure cannot be shown. ${error instanceof Error ? error.message : error}`);
+      this.refuse(error);
     }
   }
 
@@ -223,6 +223,12 @@ export class FigureElement extends ElementBase {
     return this.#life ? encode(this.#life.reader.point, this.#life.manifest, prefix) : "";
   }
 
+  /** Where it opens the next time: where the reader is. */
+  stay() {
+    const point = this.write();
+    if (point) this.setAttribute("point", point);
+  }
+
   /** @returns {Promise<string | null>} null: the link is in the clipboard */
   async #copy() {
     const link = this.addresses?.link(this) ?? `${location.href.split("#")[0]}#${this.write(this.name)}`;
@@ -249,6 +255,11 @@ export class FigureElement extends ElementBase {
   /** Put something into the frame, below what is said above it. @param {Node[]} nodes */
   #fill(...nodes) {
     this.#frame.replaceChildren(this.#mark, ...nodes);
+  }
+
+  /** @param {unknown} error why it cannot be shown */
+  refuse(error) {
+    this.fail(`This figure cannot be shown. ${error instanceof Error ? error.message : error}`);
   }
 
   /** A sentence in place of what does not work; the poster stays. @param {string} sentence */
