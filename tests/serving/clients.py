@@ -15,7 +15,7 @@ import param
 
 import reactive4d as r4
 
-PATIENCE = 60.0  # seconds; what takes longer has got stuck
+PATIENCE = 120.0  # seconds; what takes longer has got stuck
 
 
 class Pendulum(r4.Illustration):

@@ -12,6 +12,8 @@ sys.path.insert(0, str(Path(__file__).parent))  # what the tests of this folder 
 
 pytest.importorskip("trame", reason="pip install '.[trame]'")
 
+from clients import PATIENCE
+
 from reactive4d_apps.serving import Limits, Server, serve
 from reactive4d_apps.serving.halls import Hall
 
@@ -89,6 +91,7 @@ def read(browser: Any) -> Iterator[Callable[..., Any]]:
         forgiven.extend([forgive] if forgive else [])
         viewport = {"width": size[0], "height": size[1]}
         contexts.append(browser.new_context(viewport=viewport, has_touch=touch, is_mobile=touch))
+        contexts[-1].set_default_timeout(1000 * PATIENCE)
         page = contexts[-1].new_page()
         page.add_init_script(f"{COUNTING};{init}")
         home = urlsplit(address).netloc

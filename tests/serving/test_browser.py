@@ -3,7 +3,7 @@
 from typing import Any
 
 import numpy as np
-from clients import Pendulum, origin_of
+from clients import PATIENCE, Pendulum, origin_of
 
 import reactive4d as r4
 
@@ -106,6 +106,7 @@ def test_a_page_of_another_site_cannot_drive_the_model(served, browser, answered
     address = served(Pendulum).address
     elsewhere = answered(Puppet).address.replace("127.0.0.1", "localhost")
     context = browser.new_context()
+    context.set_default_timeout(1000 * PATIENCE)
     page = context.new_page()
     page.route(elsewhere, lambda route: route.fulfill(body="<p>elsewhere", content_type="text/html"))
     page.goto(elsewhere)
@@ -128,4 +129,4 @@ def test_without_a_server_the_page_says_so(served, read):
     rested(page, "opaque", 1, 0.5)
     server.close()
     page.evaluate("document.querySelector('r4d-figure').reader.change({ parameters: { length: 1.5 } })")
-    page.get_by_text("does not answer").first.wait_for(timeout=30_000)
+    page.get_by_text("does not answer").first.wait_for()

@@ -9,7 +9,7 @@ from typing import Any
 import aiohttp
 import numpy as np
 import pytest
-from clients import Pendulum, run
+from clients import PATIENCE, Pendulum, run
 from clients import client as joined
 from PIL import Image
 
@@ -202,10 +202,11 @@ def colours(page: Any) -> Any:
 def test_a_reader_without_webgl_sees_orbits_and_drives_the_figure(served: Callable[..., Any], browser: Any):
     """The picture follows the hand, the clock and the controls."""
     context = browser.new_context(viewport={"width": 900, "height": 800})
+    context.set_default_timeout(1000 * PATIENCE)
     page = context.new_page()
     page.add_init_script(NO_WEBGL)
     page.goto(served(Pendulum, options={"shadows": False}).address)
-    page.wait_for_function(SHOWN, timeout=120_000)
+    page.wait_for_function(SHOWN)
     page.wait_for_function("() => document.querySelector('r4d-figure').life.remote > 0")
     before = redness(colours(page))
     assert before[0] > 50
