@@ -5,11 +5,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from reactive4d.errors import ParameterError, ShapeError, TimeError, hint
 from reactive4d.illustrations.subjects import Subject
 from reactive4d_widgets.plans import is_several
+from reactive4d_widgets.spans import seconds_of
 
 __all__ = ["MOST", "Moment", "reel_of"]
 
@@ -100,14 +99,7 @@ def _common(playing: Mapping[str, Sequence[Any]]) -> int | None:
 
 def _times(given: Any, rate: float, count: int | None) -> list[float]:
     """One time for each picture; so many where parameters play as well."""
-    try:
-        array = np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise hint(TimeError(f"times: expected numbers of seconds, got {given!r}"), _HINT) from None
-    if array.ndim != 1 or len(array) < 2:
-        raise hint(TimeError(f"times: expected two numbers or more, got {given!r}"), _HINT)
-    if not np.isfinite(array).all():
-        raise hint(TimeError(f"times: expected finite numbers, got {given!r}"), _HINT)
+    array = seconds_of(given, _HINT)
     if len(array) > 2:
         if count not in (None, len(array)):
             raise hint(ShapeError(f"{len(array)} times, but {count} values of what plays"), _HINT)

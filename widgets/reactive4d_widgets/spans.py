@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from reactive4d.errors import TimeError, hint
 
-__all__ = ["RATE", "Span", "span_of"]
+__all__ = ["RATE", "Span", "seconds_of", "span_of"]
 
 RATE = 30.0
 MOST = 100_000
@@ -82,6 +82,30 @@ class Span:
         return self.count + 1
 
 
+def seconds_of(times: Any, advice: str) -> NDArray[np.float64]:
+    """Two times or more.
+
+    Args:
+        times: whatever was given.
+        advice: what would have been right.
+
+    Raises:
+        TimeError: these are fewer, or no finite numbers.
+
+    >>> seconds_of([0, 2], "times=(0, 4)")
+    array([0., 2.])
+    """
+    try:
+        array: NDArray[np.float64] = np.asarray(times, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise hint(TimeError(f"times: expected numbers of seconds, got {times!r}"), advice) from None
+    if array.ndim != 1 or len(array) < 2:
+        raise hint(TimeError(f"times: expected two numbers or more, got {times!r}"), advice)
+    if not np.isfinite(array).all():
+        raise hint(TimeError(f"times: expected finite numbers, got {times!r}"), advice)
+    return array
+
+
 def span_of(times: Any, default: tuple[float, float], *, rate: float = RATE) -> Span:
     """What an author means by the times of a page.
 
@@ -98,15 +122,7 @@ def span_of(times: Any, default: tuple[float, float], *, rate: float = RATE) -> 
     >>> span_of(np.linspace(0, 4, 9), (0, 10)).step
     0.5
     """
-    given: Any = default if times is None else times
-    try:
-        array: NDArray[np.float64] = np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise hint(TimeError(f"times: expected numbers of seconds, got {given!r}"), _HINT) from None
-    if array.ndim != 1 or len(array) < 2:
-        raise hint(TimeError(f"times: expected two numbers or more, got {given!r}"), _HINT)
-    if not np.isfinite(array).all():
-        raise hint(TimeError(f"times: expected finite numbers, got {given!r}"), _HINT)
+    array = seconds_of(default if times is None else times, _HINT)
     start, stop = float(array[0]) + 0.0, float(array[-1]) + 0.0
     if len(array) == 2:
         if not start <= stop:
