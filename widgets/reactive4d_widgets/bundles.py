@@ -8,33 +8,58 @@ from pathlib import Path
 
 from reactive4d.errors import Reactive4dError, hint
 
-__all__ = ["LOADER", "loader_hash", "packed", "styles"]
+__all__ = ["LOADER", "UNPACK", "loader_hash", "packed", "script", "styles"]
 
 STATIC = Path(__file__).parent / "static"
 _HOW = "in widgets/js: npm ci && node build.mjs"
 
-# A classic script: modules are not imported from a disk, but from what a page holds in its memory they are.
-LOADER = """
-(async () => {
+# What all that loads the viewer begins with: base 64 as bytes, and zipped bytes as a module. Modules are not imported
+# from a disk, but from what a page holds in its memory they are.
+UNPACK = """
+function bytesOf(text) {
+  return Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
+}
+
+async function imported(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
+  const address = URL.createObjectURL(code);
   try {
-    const text = document.getElementById("r4d-bundle").textContent.trim();
-    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
-    const address = URL.createObjectURL(code);
-    const viewer = await import(address);
+    return await import(address);
+  } finally {
     URL.revokeObjectURL(address);
-    viewer.start(document);
-  } catch (error) {
-    console.error(error);
-    for (const figure of document.querySelectorAll("r4d-figure")) {
-      const note = document.createElement("p");
-      note.textContent = "This picture stays still: the browser is too old for the viewer (" + error + ").";
-      figure.append(note);
-    }
   }
-})();
+}
 """
+
+
+def script(text: str, begin: str) -> str:
+    """A classic script that starts the viewer, or says below each figure why it does not.
+
+    Args:
+        text: an expression of JavaScript: the viewer as `packed` has it.
+        begin: a statement: what is done with the `viewer`.
+
+    >>> "imported(bytesOf(text))" in script("text", "viewer.start(document)")
+    True
+    """
+    return f"""(async () => {{{UNPACK}
+try {{
+  const viewer = await imported(bytesOf({text}));
+  {begin};
+}} catch (error) {{
+  console.error(error);
+  for (const figure of document.querySelectorAll("r4d-figure")) {{
+    const note = document.createElement("p");
+    note.textContent = "This picture stays still: the browser is too old for the viewer (" + error + ").";
+    figure.append(note);
+  }}
+}}
+}})();
+"""
+
+
+LOADER = script('document.getElementById("r4d-bundle").textContent', "viewer.start(document)")
 
 
 def styles() -> str:

@@ -6,12 +6,12 @@ And the lines that bring to life what a notebook keeps of a figure, which carrie
 import base64
 from functools import lru_cache
 
-from reactive4d_widgets.bundles import packed
+from reactive4d_widgets.bundles import UNPACK, packed
 
 __all__ = ["KEEPER", "LOADER", "bundle"]
 
 # The viewer is asked of the kernel, by its hash, once for all widgets of a page: cells that run again bring none along.
-LOADER = """
+_LOAD = """
 const KEY = Symbol.for("reactive4d.viewers");
 const viewers = (globalThis[KEY] ??= new Map());
 
@@ -26,8 +26,7 @@ function fetched(model, hash) {
     const heard = (message, buffers) => {
       if (message?.type !== "bundle" || message.hash !== hash) return;
       const part = buffers?.[0];
-      if (part) done(null, part);
-      else done(null, Uint8Array.from(atob(message.data), (letter) => letter.charCodeAt(0)));
+      done(null, part ?? bytesOf(message.data));
     };
     model.on("msg:custom", heard);
     model.send({ type: "bundle", hash });
@@ -36,20 +35,12 @@ function fetched(model, hash) {
 
 // What a notebook keeps of a figure carries the viewer along.
 function kept(hash) {
-  const code = document.querySelector(`[data-r4d-bundle="${hash}"]`)?.textContent.trim();
-  return code ? Uint8Array.from(atob(code), (letter) => letter.charCodeAt(0)) : null;
+  const code = document.querySelector(`[data-r4d-bundle="${hash}"]`)?.textContent;
+  return code ? bytesOf(code) : null;
 }
 
 async function load(model, hash) {
-  const bytes = kept(hash) ?? await fetched(model, hash);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
-  const address = URL.createObjectURL(code);
-  try {
-    return await import(address);
-  } finally {
-    URL.revokeObjectURL(address);
-  }
+  return imported(kept(hash) ?? await fetched(model, hash));
 }
 
 function viewer(model) {
@@ -75,10 +66,10 @@ async function render({ model, el }) {
 
 export default { render };
 """
+LOADER = UNPACK + _LOAD
 
 # In a notebook the widget comes first: what is kept waits until it is clear that there is no kernel to answer.
-KEEPER = """
-((name) => {
+_KEEP = """
   const KEY = Symbol.for("reactive4d.viewers");
   const viewers = (globalThis[KEY] ??= new Map());
   const place = document.querySelector(`[data-r4d-poster="${name}"]`);
@@ -87,23 +78,11 @@ KEEPER = """
   if (!code || !table) return;
   const hash = code.dataset.r4dBundle;
 
-  async function load() {
-    const bytes = Uint8Array.from(atob(code.textContent.trim()), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const text = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
-    const address = URL.createObjectURL(text);
-    try {
-      return await import(address);
-    } finally {
-      URL.revokeObjectURL(address);
-    }
-  }
-
   async function begin() {
     const pause = new Promise((done) => { setTimeout(done, 500); }); // a kernel that is gone is not waited for
     let viewer = await Promise.race([viewers.get(hash), pause]);
     if (!viewer) {
-      viewers.set(hash, load().catch((error) => { viewers.delete(hash); throw error; }));
+      viewers.set(hash, imported(bytesOf(code.textContent)).catch((error) => { viewers.delete(hash); throw error; }));
       viewer = await viewers.get(hash);
     }
     viewer.keepsake({ place, data: JSON.parse(table.textContent) });
@@ -115,7 +94,8 @@ KEEPER = """
     begin().catch((error) => console.error(error));
   }, { rootMargin: "200px" });
   setTimeout(() => seen.observe(place), document.getElementById("jupyter-config-data") ? 4000 : 0);
-})"""
+"""
+KEEPER = f"\n((name) => {{{UNPACK}{_KEEP}}})"
 
 
 @lru_cache(maxsize=1)

@@ -14,33 +14,13 @@ from typing import Any
 
 from reactive4d.geometry.files import put
 from reactive4d_apps.sphinx.sources import digest_of
-from reactive4d_widgets.bundles import packed, styles
+from reactive4d_widgets.bundles import packed, script, styles
 from reactive4d_widgets.tables import compact
 
-__all__ = ["LOADER", "figures_file", "script_name", "write_data", "write_viewer"]
+__all__ = ["figures_file", "script_name", "write_data", "write_viewer"]
 
 ALONE = 4096  # bytes; a chunk that takes more is a file of its own
 _OURS = re.compile(r"r4d-[0-9a-f]{16}\.js")
-
-LOADER = """(async () => {
-  const bytes = Uint8Array.from(atob("%s"), (letter) => letter.charCodeAt(0));
-  try {
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const code = new Blob([await new Response(stream).blob()], { type: "text/javascript" });
-    const address = URL.createObjectURL(code);
-    const viewer = await import(address);
-    URL.revokeObjectURL(address);
-    await viewer.site(document);
-  } catch (error) {
-    console.error(error);
-    for (const figure of document.querySelectorAll("r4d-figure")) {
-      const note = document.createElement("p");
-      note.textContent = "This picture stays still: the browser is too old for the viewer (" + error + ").";
-      figure.append(note);
-    }
-  }
-})();
-"""
 
 
 def figures_file(trees: Path, builder: str) -> Path:
@@ -53,7 +33,7 @@ def figures_file(trees: Path, builder: str) -> Path:
 
 
 def _viewer() -> bytes:
-    return (LOADER % packed()[0]).encode("utf-8")
+    return script(f'"{packed()[0]}"', "await viewer.site(document)").encode("utf-8")
 
 
 def script_name() -> str:
