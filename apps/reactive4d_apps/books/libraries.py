@@ -57,22 +57,10 @@ class Library(Hall):
         self._loop: asyncio.AbstractEventLoop | None = None
         self.renew(figures, (), originals=originals)
 
-    def attach(self, app: web.Application, *, is_guest: bool = False) -> None:
-        """Add the addresses to a server that has not started, and end with it.
-
-        Args:
-            app: of the server.
-            is_guest: whether it has addresses of its own, which ours must not cover.
-        """
-        head = f"/{self.token}" if is_guest else "/{token}"
-        app.router.add_get(f"{head}/live/{{figure}}", self._get_line)
-        app.router.add_get(f"{head}/copy/{{figure}}", self._get_copy)
+    def _attach_pages(self, app: web.Application, head: str, *, is_guest: bool) -> None:
         app.router.add_get(f"{head}/book/news", self._get_news)
         app.router.add_get(f"{head}/book/news.js", self._get_script)
         app.router.add_get(f"{head}/{{path:.*}}", self._get_path)
-        app.on_startup.append(self._begin)
-        app.on_shutdown.append(self._end_news)
-        app.on_shutdown.append(self._finish)
 
     # -- what is served, and that it changed -------------------------------------------------------------------------
 
@@ -117,9 +105,10 @@ class Library(Hall):
         self._loop = asyncio.get_running_loop()
         await super()._begin(app)
 
-    async def _end_news(self, app: web.Application) -> None:
+    async def _finish(self, app: web.Application) -> None:
         for queue in self._waiting:
             queue.put_nowait(None)
+        await super()._finish(app)
 
     async def _get_path(self, request: web.Request) -> web.Response:
         self._admit(request)

@@ -9,7 +9,7 @@ import asyncio
 import itertools
 import logging
 from collections.abc import Callable, Collection, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from aiohttp import WebSocketError, WSCloseCode, web
 
@@ -25,6 +25,7 @@ __all__ = ["Hall"]
 
 LOG = logging.getLogger("reactive4d.serving")
 FULL = 4002  # the code with which a connection ends for which there is no private copy left
+T = TypeVar("T")
 Opened = Callable[[Callable[[dict[str, Any]], None]], Answers]
 
 HEADERS = {
@@ -89,13 +90,17 @@ class Hall:
             is_guest: whether it has addresses of its own, which ours must not cover: then there is no page of ours.
         """
         head = f"/{self.token}" if is_guest else "/{token}"
-        if not is_guest:
-            app.router.add_get(f"{head}/", self._get_page)
         app.router.add_get(f"{head}/live/{{figure}}", self._get_line)
         app.router.add_get(f"{head}/copy/{{figure}}", self._get_copy)
-        app.router.add_get(f"{head}/{{file}}", self._get_file)
+        self._attach_pages(app, head, is_guest=is_guest)
         app.on_startup.append(self._begin)
         app.on_shutdown.append(self._finish)
+
+    def _attach_pages(self, app: web.Application, head: str, *, is_guest: bool) -> None:
+        """Add the addresses of what figures stand in."""
+        if not is_guest:
+            app.router.add_get(f"{head}/", self._get_page)
+        app.router.add_get(f"{head}/{{file}}", self._get_file)
 
     async def _begin(self, app: web.Application) -> None:
         self._workers = Workers(self.limits.threads)
@@ -128,19 +133,11 @@ class Hall:
         return web.Response(body=found[1], content_type=found[0], charset="utf-8", headers=HEADERS)
 
     async def _get_line(self, request: web.Request) -> web.StreamResponse:
-        self._admit(request, must_tell=True)
-        name = request.match_info["figure"]
-        answers = self.figures.get(name)
-        if answers is None:
-            raise self._refused(request, f"there is no figure {name[:40]!r}", web.HTTPNotFound)
+        name, answers = self._wanted(request, self.figures, "there is no figure")
         return await self._talk(request, f"reader {{}} of {name}", answers, self._workers)
 
     async def _get_copy(self, request: web.Request) -> web.StreamResponse:
-        self._admit(request, must_tell=True)
-        name = request.match_info["figure"]
-        one = self.originals.get(name)
-        if one is None:
-            raise self._refused(request, f"there are no copies of {name[:40]!r}", web.HTTPNotFound)
+        name, one = self._wanted(request, self.originals, "there are no copies of")
         if len(self.copies) >= self.limits.copies:
             return await self._full(request)
         copy = Copy(one, self.limits)
@@ -218,6 +215,14 @@ class Hall:
         reason = self.door.refusal(given, headers.get("Host"), headers.get("Origin"), must_tell=must_tell)
         if reason is not None:
             raise self._refused(request, reason, web.HTTPForbidden)
+
+    def _wanted(self, request: web.Request, known: Mapping[str, T], lacking: str) -> tuple[str, T]:
+        """The figure that a call names, and what is known of it by this name; or raise what the call is told."""
+        self._admit(request, must_tell=True)
+        name = request.match_info["figure"]
+        if name not in known:
+            raise self._refused(request, f"{lacking} {name[:40]!r}", web.HTTPNotFound)
+        return name, known[name]
 
     def _refused(self, request: web.Request, reason: str, kind: type[web.HTTPError]) -> web.HTTPError:
         """Note it down, as long as there are not too many, and say no more than that."""
