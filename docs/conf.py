@@ -4,6 +4,8 @@ import importlib.metadata
 import re
 from typing import Any
 
+from pygments.lexers.python import Python3Lexer
+
 project = "reactive4d"
 author = "the reactive4d authors"
 release = importlib.metadata.version("reactive4d")
@@ -34,5 +36,6 @@ def _joined(app: Any, what: str, name: str, thing: Any, options: Any, lines: lis
 
 
 def setup(app: Any) -> None:
-    """Tell Sphinx how the docstrings are written."""
+    """Tell Sphinx how the docstrings are written, and how programs look where IPython does not tell it."""
+    app.add_lexer("ipython", Python3Lexer)
     app.connect("autodoc-process-docstring", _joined)
