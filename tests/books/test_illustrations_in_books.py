@@ -153,7 +153,7 @@ def test_a_script_is_a_figure_and_its_text_stands_beside_it(book: Book):
 
 
 def test_a_script_that_may_be_edited_is_a_text_where_there_is_no_server(book: Book):
-    """And says where it may be; an illustration is a program, and nobody's to edit."""
+    """And says where it may be; so is the scene of an illustration, if a script can say it."""
     (book.folder / "egg.scefo").write_text('object (egg) sphere color="gold"; /* an egg */\n', encoding="utf-8")
     build = book.build("# An egg\n\n```{illustration} egg.scefo\n:editable:\n:name: egg\n```\n", strict=True)
     assert build.ok, build.complaints

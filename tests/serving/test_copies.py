@@ -7,6 +7,7 @@ import signal
 from pathlib import Path
 from typing import Any
 
+import param
 import pytest
 from clients import Client, client, got_raw, run
 
@@ -443,8 +444,56 @@ def test_what_cannot_be_a_script_cannot_be_edited(served):
 
     with pytest.raises(r4.NotWritableError, match="ball"):
         served(r4.Scene(ball=r4.Sphere(radius=r4.signal(lambda: 1.0))), editable=True)
-    with pytest.raises(ShapeError, match="no figure is a scene"):
+    with pytest.raises(ShapeError, match=r"pendulum is a program, .*: kind: no script can say between"):
         served(Pendulum, editable=True)
+
+
+class Jack(r4.Illustration):
+    """A jack, which lifts by {height}."""
+
+    height = param.Number(1.0, bounds=(0.0, 3.0), doc="how high [m]")
+    tint = param.Color("#dc143c")
+
+    def build(self) -> r4.Scene:
+        box = r4.Box(color=self.signals.tint)
+        box.translate(r4.vec(0, 0, self.signals.height * r4.time))
+        return r4.Scene(box=box)
+
+
+class Opaque(Jack):
+    """The same by a function of Python."""
+
+    def build(self) -> r4.Scene:
+        box = r4.Box()
+        box.translate(r4.lift(lambda x: (0.0, 0.0, x))(self.signals.height))
+        return r4.Scene(box=box)
+
+
+def test_what_an_illustration_builds_is_edited_as_a_script(served):
+    """Its parameters stand in it with their bounds, and drive the copy; its program is not seen, and not run there."""
+    server = served(Jack, editable=True)
+    (script,) = [one.script for one in server.hall.originals.values()]
+    assert 'parameter (height) 1.0 bounds = {0.0, 3.0} doc = "how high [m]";' in script
+
+    async def work():
+        async with Line(server, "jack") as reader:
+            told = await edited(reader, script.replace("height * time", "height * time + 10"))
+            assert told["type"] == "edited", told
+            controls = {one["name"]: one for one in (await reader.open())["parameters"]}
+            assert controls["height"]["bounds"] == [0.0, 3.0]
+            assert controls["tint"]["kind"] == "color"
+            told = await reader.ask(2.0, "box#matrix", height=3.0)
+            assert told["segments"], told
+            refused = await reader.ask(2.0, "box#matrix", height=4.0)
+            assert "height: 4.0 is not within 0.0 and 3.0" in refused["text"]
+
+    run(work)
+
+
+def test_a_program_beside_what_can_be_edited_is_left_as_it_is(served):
+    """Of a page's figures those have scripts of which there is one."""
+    page = r4.Page("# Two\n\n![](one)\n\n![](other)\n", one=Jack, other=Opaque)
+    assert list(served(page, editable=True).hall.originals) == ["one"]
 
 
 def test_the_page_holds_the_script(served):

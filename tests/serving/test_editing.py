@@ -4,6 +4,7 @@ import os
 import signal
 from typing import Any
 
+import param
 import pytest
 
 import reactive4d as r4
@@ -55,6 +56,33 @@ def test_a_copy_is_marked_and_a_reset_leads_back(served, read):
     assert status(own).inner_text() == "This is what all see."
     assert field.input_value() == SCRIPT.strip()
     assert own.get_by_text("Your copy", exact=True).count() == 0
+
+
+class Jack(r4.Illustration):
+    """A jack: {height} high."""
+
+    height = param.Number(1.0, bounds=(0.0, 3.0), doc="[m]")
+
+    def build(self) -> r4.Scene:
+        ball = r4.Sphere()
+        ball.translate(r4.vec(self.signals.height * r4.time, 0, 0))
+        return r4.Scene(ball=ball)
+
+
+def test_a_copy_of_what_an_illustration_builds_is_driven_by_its_parameters(served, read):
+    """It opens where the reader was; its controls drive it, and the numbers of the text follow."""
+    page = read(served(Jack, editable=True).address, point="t=2&height=3")
+    page.wait_for_function(SHOWS, arg=6)
+    field = editor(page)
+    field.fill(field.input_value().replace("height * time", "height * time * 10"))
+    field.press("Control+Enter")
+    page.wait_for_function(SHOWS, arg=60)
+    assert page.get_by_text("Your copy", exact=True).is_visible()
+    page.evaluate("document.querySelector('r4d-figure').reader.change({ parameters: { height: 2 } })")
+    page.wait_for_function(SHOWS, arg=40)
+    page.locator("r4d-number").get_by_text("2.00").wait_for()
+    page.get_by_role("button", name="Back to what all see").first.click()
+    page.wait_for_function(SHOWS, arg=4)
 
 
 def test_where_there_are_no_keys_none_are_named(served, read):

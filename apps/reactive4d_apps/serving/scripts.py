@@ -1,5 +1,6 @@
-"""Scripts: what of a figure its reader may edit: the script of its scene."""
+"""Scripts: of which figures of a page a reader may have a private copy, and what each copy needs."""
 
+import logging
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,28 +10,41 @@ import numpy as np
 import reactive4d as r4
 from reactive4d.errors import Reactive4dError, ShapeError, hint
 from reactive4d.geometry.files import located
+from reactive4d.illustrations import subject
 from reactive4d.scefo.collecting import Collection
 from reactive4d.scefo.reading import FOLDER, SOURCE, reads_files
+from reactive4d_apps.scripts import script_of
 from reactive4d_apps.serving.confinements import can_confine
 from reactive4d_apps.serving.copies import Original
 from reactive4d_apps.serving.exhibits import Exhibit
 
 __all__ = ["original", "originals_of"]
 
+LOG = logging.getLogger("reactive4d.serving")
+
 
 def originals_of(exhibits: Mapping[str, Exhibit]) -> dict[str, Original]:
-    """The scripts of those figures of a page that are scenes; an illustration is a program, and nobody's to edit.
+    """The scripts of the figures of a page. An illustration whose scene no script can say is left out.
 
     Raises:
-        ShapeError: none of them is a scene.
-        NotWritableError: there are things in one that no script can say.
+        ShapeError: nothing is left.
+        NotWritableError: there are things in a scene that no script can say.
         Reactive4dError: this system sets no limits to what a process takes.
     """
     if not can_confine():
         raise Reactive4dError("nothing can be edited here: this system sets no limits to what a private copy takes")
-    found = {name: original(one) for name, one in exhibits.items() if isinstance(one.figure.thing, r4.Scene)}
+    found: dict[str, Original] = {}
+    reason = "there is no figure"
+    for name, one in exhibits.items():
+        try:
+            found[name] = original(one)
+        except (r4.NotWritableError, ShapeError) as error:
+            if isinstance(one.figure.thing, r4.Scene):
+                raise
+            reason = f"{name} is a program, and what it builds no script can say: {error}"
+            LOG.info("%s", reason)
     if not found:
-        raise hint(ShapeError("nothing can be edited here: no figure is a scene"), "Scene.load reads one from a script")
+        raise hint(ShapeError(f"nothing can be edited here: {reason}"), "Scene.load reads a scene from a script")
     return found
 
 
@@ -39,18 +53,17 @@ def original(exhibit: Exhibit) -> Original:
 
     Raises:
         NotWritableError: there are things in the scene that no script can say.
-        ShapeError: it reads files of several folders.
+        ShapeError: it reads files of several folders, or has a choice among its parameters.
 
     >>> made = original(Exhibit("ball", r4.Figure(r4.loads("object (ball) sphere; /* round */"))))
     >>> made.script
-    'object (ball) sphere; /* round */\n'
+    'object (ball) sphere; /* round */'
     """
-    scene: Any = exhibit.figure.thing
-    folder, files = _files(scene)
+    folder, files = _files(subject(exhibit.figure.thing).scene)
     times = exhibit.times
     return Original(
         name=exhibit.name,
-        script=r4.dumps(scene, folder=folder),
+        script=script_of(exhibit.figure.thing, folder=folder),
         folder=folder,
         files=files,
         title=exhibit.figure.title,

@@ -60,7 +60,7 @@ def serve(
         title: of the page; otherwise its first heading, or what the subject is called.
         lang: of the text, as in HTML.
         theme: "light", "dark", or "auto": as the reader's system is.
-        editable: whether readers may edit the scripts of scenes, each in a private copy that nobody else sees.
+        editable: whether readers may edit the scenes as scripts, each in a private copy that nobody else sees.
         options: how figures are shown at first: theme, height, loop, autoplay, edges, shading, ground, axes, grid,
             shadows, playing.
         parameters: values by name, for parameters that are called like one of these arguments.

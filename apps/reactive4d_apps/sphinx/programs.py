@@ -16,7 +16,7 @@ from reactive4d.illustrations import Illustration
 from reactive4d_apps.places import found
 from reactive4d_apps.sphinx.sources import digest_of, module_files, text_of
 
-__all__ = ["Coded", "Placed", "Program", "kept", "program_of", "script_of"]
+__all__ = ["Coded", "Placed", "Program", "kept", "program_of"]
 
 
 class Program:
@@ -202,21 +202,6 @@ def kept(program: Program, home: Path) -> dict[str, Any]:
 def _from(home: Path, path: str | Path) -> str:
     path = Path(path)
     return path.relative_to(home).as_posix() if path.is_relative_to(home) else path.as_posix()
-
-
-def script_of(thing: Any) -> str:
-    """The script of a scene, for its reader to edit.
-
-    Raises:
-        ShapeError: it is no scene; an illustration is a program, and nobody's to edit.
-        NotWritableError: there are things in it that no script can say.
-
-    >>> script_of(r4.loads("object (ball) sphere; /* round */"))
-    'object (ball) sphere; /* round */'
-    """
-    if not isinstance(thing, r4.Scene):
-        raise hint(ShapeError("editable: a reader edits the script of a scene"), "a .scefo file, or a scene")
-    return r4.dumps(thing).rstrip()
 
 
 def _can_be_shown(thing: Any) -> bool:

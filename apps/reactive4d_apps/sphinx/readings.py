@@ -13,10 +13,11 @@ from sphinx.util import logging
 
 from reactive4d.errors import Reactive4dError, ShapeError, hint, unknown
 from reactive4d.illustrations import Bookmark, subject
+from reactive4d_apps.scripts import script_of
 from reactive4d_apps.sphinx.bakings import SIZE, Baking, Pantry, Still, Wish, opening
 from reactive4d_apps.sphinx.casts import Cast, Company
 from reactive4d_apps.sphinx.elements import Check, Either, Fold, Illustration, Link, Number, Script, Word
-from reactive4d_apps.sphinx.programs import Coded, Placed, Program, kept, script_of
+from reactive4d_apps.sphinx.programs import Coded, Placed, Program, kept
 from reactive4d_apps.sphinx.sources import digest_of
 from reactive4d_apps.sphinx.wordings import named, times_of
 from reactive4d_widgets.tables import compact
