@@ -19,6 +19,7 @@ _SMALL = 1 << 14  # bytes that are copied sooner than looked at in parts
 _HEAD = 1 << 10  # bytes that are compared first
 _MOST = 1 << 18  # bytes that are compared at once
 
+_SHARED = frozenset((np.ndarray, tuple))  # what a tuple may have that somebody could change
 _EXACT = (int, str, bytes, bool, type(None))
 
 
@@ -89,15 +90,21 @@ def _same_but_for_nan(a: _Array, b: _Array) -> bool:
 def freeze(value: Any) -> Any:
     """Make an array read-only, so that nobody changes an answer that others share; other values pass unchanged.
 
-    An array that only views a writable one is copied first.
+    An array that only views a writable one is copied first. Of a tuple all arrays are made so.
 
-    >>> freeze(np.zeros(3)).flags.writeable
-    False
+    >>> freeze(np.zeros(3)).flags.writeable, freeze((np.zeros(3), 1.0))[0].flags.writeable
+    (False, False)
     """
-    if type(value) is np.ndarray and value.flags.writeable:
-        if value.base is not None:
-            value = value.copy()
-        value.flags.writeable = False
+    kind = type(value)  # pyright: ignore[reportUnknownVariableType]
+    if kind is np.ndarray:
+        if value.flags.writeable:
+            if value.base is not None:
+                value = value.copy()
+            value.flags.writeable = False
+    elif kind is tuple and not _SHARED.isdisjoint(map(type, value)):
+        parts = tuple([freeze(part) for part in value])
+        if any(part is not other for part, other in zip(parts, value, strict=True)):
+            return parts
     return value
 
 

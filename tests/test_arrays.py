@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from reactive4d.arrays import same
+import reactive4d as r4
+from reactive4d.arrays import freeze, same
 
 LARGE = 1 << 20
 DTYPES = ["f2", "f4", "f8", "c8", "c16", "i1", "i4", "u8", "?", "U3", "S5", "M8[s]", "f4,i1"]
@@ -35,6 +36,24 @@ def test_arrays_are_the_same_if_their_bytes_are_or_both_are_nan(data: st.DataObj
     if size and data.draw(st.booleans()):
         b[data.draw(st.integers(0, size - 1))] = b[data.draw(st.integers(0, size - 1))]
     assert same(a, b) == bits(a, b)
+
+
+def test_arrays_in_a_tuple_are_answers_too() -> None:
+    """Nobody changes them; a view of what somebody else may change is a copy, and all else stays the very same."""
+    own = np.zeros(3)
+
+    @r4.signal
+    def pair(t: float) -> Any:
+        return np.arange(3.0) + t, ("deep", (own[:2], 1.0))
+
+    first, (word, (second, one)) = pair.at(1.0)
+    for array in (first, second):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 9.0
+    own[0] = 5.0
+    assert (word, second.tolist(), one) == ("deep", [0.0, 0.0], 1.0)
+    kept = (first, "word", (1, 2.0))
+    assert freeze(kept) is kept
 
 
 @pytest.mark.parametrize("place", [0, 100, 1000, 77_777, LARGE - 1])
