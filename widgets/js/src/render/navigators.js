@@ -8,6 +8,7 @@ import { between, dolly, eyeOf, inTargetPlane, orbit, pan } from "./orbits.js";
 /** @typedef {import("../core/types.js").Snapshot} Snapshot */
 /** @typedef {import("../core/types.js").Manifest} Manifest */
 /** @typedef {import("./orbits.js").Eye} Eye */
+/** @typedef {import("./orbits.js").Ball} Ball */
 /** @typedef {import("./vectors.js").Vec} Vec */
 
 const GLIDE = 450;
@@ -24,15 +25,15 @@ export class Navigator {
   /** @type {Eye} */
   #scene;
   #view;
-  #size;
+  #home;
 
   /**
    * @param {Manifest["view"]} view the default
-   * @param {number} size of the scene, metres
+   * @param {Ball} home of the scene over its times
    */
-  constructor(view, size) {
+  constructor(view, home) {
     this.#view = view;
-    this.#size = size;
+    this.#home = home;
     this.#scene = copy(view);
     this.near = 0;
     this.far = Infinity;
@@ -68,7 +69,7 @@ export class Navigator {
       target,
       fov: fov ?? this.#view.fov,
       up: [...this.#view.up],
-      reach: this.#size,
+      home: this.#home,
     });
   }
 
@@ -120,7 +121,7 @@ export class Navigator {
   dolly(now, factor, direction) {
     const eye = this.take(now);
     const toward = direction === null ? null : inTargetPlane(eye, direction);
-    this.#own = dolly(eye, factor, toward, { min: 1e-3 * this.#size, max: 40 * this.#size });
+    this.#own = dolly(eye, factor, toward, { min: 1e-3 * this.#home.radius, max: 40 * this.#home.radius });
   }
 }
 

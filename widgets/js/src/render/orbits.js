@@ -7,6 +7,7 @@ import { subtract, turn, unit } from "./vectors.js";
 
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {{position: Vec, target: Vec, up: Vec, fov: number}} Eye */
+/** @typedef {{center: readonly number[], radius: number}} Ball metres */
 /** @typedef {{min: number, max: number}} Limits of the distance between eye and target */
 
 const POLE = 0.002;
@@ -117,16 +118,21 @@ function arc(a, b, s) {
 /**
  * How a camera with this matrix looks: along its own -z, at the nearest to `target` on that line.
  * @param {ArrayLike<number>} m (16) row-major
- * @param {{target: readonly number[]|null, fov: number, up: Vec, reach: number}} settings `up`: the world's; `reach`:
- *   how far off the target is taken to be if there is none ahead
+ * @param {{target: readonly number[]|null, fov: number, up: Vec, home: Ball}} settings `up`: the world's; `home`: the
+ *   scene's ball: who looks at a place outside of it goes round its middle instead, where something is to be seen
  * @returns {Eye}
  */
-export function eyeOf(m, { target, fov, up, reach }) {
+export function eyeOf(m, { target, fov, up, home }) {
   const position = [m[3], m[7], m[11]];
   const ahead = unit([-m[2], -m[6], -m[10]], [0, 0, -1]);
   const upward = unit([m[1], m[5], m[9]]);
-  const depth = target === null ? reach : dot(subtract([...target], position), ahead);
+  const depthOf = (/** @type {readonly number[]} */ p) => dot(subtract([...p], position), ahead);
+  const least = 1e-6 * home.radius;
+  let depth = target === null ? 0 : depthOf(target);
+  if (!(depth > least && distance(along(position, ahead, depth), [...home.center]) <= home.radius)) {
+    depth = depthOf(home.center);
+  }
   const rolls = Math.abs(dot(unit(cross(ahead, upward)), unit(up))) > 1e-4 || dot(upward, up) < 0;
-  const away = depth > 1e-6 * reach ? depth : reach;
+  const away = depth > least ? depth : home.radius;
   return { position, target: along(position, ahead, away), up: rolls ? upward : [...up], fov };
 }

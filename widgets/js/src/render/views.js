@@ -69,7 +69,7 @@ export class View {
     this.#options = { shading, edges, ground, axes, grid, shadows, theme, hover: true };
     this.#labels = new LabelLayer(canvas);
     this.#picture = new Picture(stage.materials, this.#labels, manifest.bounds, this.#theme);
-    this.#navigator = new Navigator(manifest.view, this.#picture.home.radius);
+    this.#navigator = new Navigator(manifest.view, this.#picture.home);
     this.#gestures = this.#hands();
     stage.add(this);
     this.#restyle();

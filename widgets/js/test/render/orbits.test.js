@@ -61,13 +61,26 @@ test("half way between two eyes is half way on the arc", () => {
 test("a camera's matrix is an eye: along its own -z, the world's up unless it rolls", () => {
   // Stands at (0, -10, 0) and looks along +y.
   const looking = Float64Array.of(1, 0, 0, 0, 0, 0, -1, -10, 0, 1, 0, 0, 0, 0, 0, 1);
-  const found = eyeOf(looking, { target: [3, 0, 4], fov: 30, up: [0, 0, 1], reach: 2 });
+  const home = { center: [0, 0, 0], radius: 5 };
+  const settings = { target: /** @type {number[]|null} */ ([3, 2, 4]), fov: 30, up: [0, 0, 1], home };
+  const found = eyeOf(looking, settings);
   near(found.position, [0, -10, 0]);
-  near(found.target, [0, 0, 0]);
+  near(found.target, [0, 2, 0]);
   assert.deepEqual(found.up, [0, 0, 1]);
-  near(eyeOf(looking, { target: null, fov: 30, up: [0, 0, 1], reach: 2 }).target, [0, -8, 0]);
   const rolled = Float64Array.of(0, -1, 0, 0, 0, 0, -1, -10, 1, 0, 0, 0, 0, 0, 0, 1);
-  near(eyeOf(rolled, { target: null, fov: 30, up: [0, 0, 1], reach: 2 }).up, [-1, 0, 0]);
+  near(eyeOf(rolled, { ...settings, target: null }).up, [-1, 0, 0]);
+});
+
+test("who looks at nothing, or at a place where nothing is, goes round the middle of the scene", () => {
+  const looking = Float64Array.of(1, 0, 0, 0, 0, 0, -1, -10, 0, 1, 0, 0, 0, 0, 0, 1);
+  const settings = { fov: 30, up: [0, 0, 1], home: { center: [1, 3, 0], radius: 4 } };
+  for (const target of [null, [0, -9, 0], [0, -12, 0], [0, 30, 0]]) {
+    near(eyeOf(looking, { ...settings, target }).target, [0, 3, 0]);
+  }
+  near(eyeOf(looking, { ...settings, target: [0, 5, 0] }).target, [0, 5, 0]);
+  // What lies behind is no middle to go round: then it is as far as the scene is large.
+  const behind = { center: [0, -30, 0], radius: 4 };
+  near(eyeOf(looking, { ...settings, home: behind, target: null }).target, [0, -6, 0]);
 });
 
 const camera = (/** @type {number} */ x, visible = true) =>
@@ -75,7 +88,7 @@ const camera = (/** @type {number} */ x, visible = true) =>
     { visible, matrix: Float64Array.of(1, 0, 0, x, 0, 0, -1, -10, 0, 1, 0, 0, 0, 0, 0, 1) });
 
 test("without a camera the default view is seen, else the first camera that is on", () => {
-  const navigator = new Navigator(manifest().view, 1);
+  const navigator = new Navigator(manifest().view, { center: [0, 0, 0], radius: 20 });
   navigator.follow(snapshot());
   near(navigator.eye(0).position, [0, -10, 0]);
   assert.deepEqual([navigator.near, navigator.far], [0, Infinity]);
@@ -86,7 +99,7 @@ test("without a camera the default view is seen, else the first camera that is o
 });
 
 test("who turns the picture has an eye of their own, which the scene's camera does not move", () => {
-  const navigator = new Navigator(manifest().view, 1);
+  const navigator = new Navigator(manifest().view, { center: [0, 0, 0], radius: 20 });
   navigator.follow(snapshot(camera(0)));
   assert.equal(navigator.own, null);
   navigator.orbit(0, Math.PI / 2, 0);
@@ -95,7 +108,7 @@ test("who turns the picture has an eye of their own, which the scene's camera do
 });
 
 test("the way back is a glide that ends at the camera, wherever it is by then; or a step", () => {
-  const navigator = new Navigator(manifest().view, 1);
+  const navigator = new Navigator(manifest().view, { center: [0, 0, 0], radius: 20 });
   navigator.follow(snapshot(camera(0)));
   navigator.orbit(0, Math.PI / 2, 0);
   navigator.back(1000, true);
@@ -113,7 +126,7 @@ test("the way back is a glide that ends at the camera, wherever it is by then; o
 });
 
 test("half of an eye is completed by what is seen", () => {
-  const navigator = new Navigator(manifest().view, 1);
+  const navigator = new Navigator(manifest().view, { center: [0, 0, 0], radius: 20 });
   navigator.own = { position: [1, 2, 3], target: [0, 0, 1] };
   assert.deepEqual(navigator.own, { position: [1, 2, 3], target: [0, 0, 1], up: [0, 0, 1], fov: 40 });
   navigator.own = null;
