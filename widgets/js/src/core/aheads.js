@@ -106,7 +106,7 @@ export class Ahead {
   #instants(then, stride) {
     const { start, stop, rate, marks } = this.times;
     if (then >= stop) return [stop];
-    const cell = Math.floor((then - start) * rate + 1e-9);
+    const cell = Math.max(0, Math.floor((then - start) * rate + 1e-9)); // who follows another may be shorter
     if (cell % stride !== 0) return [];
     const [low, high] = [start + cell / rate, Math.min(start + (cell + 1) / rate, stop)];
     const borders = [low, ...marks.filter((mark) => mark > low && mark < high), high];
