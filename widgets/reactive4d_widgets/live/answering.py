@@ -100,7 +100,7 @@ class Answerer:
         return self._resting(channel, self._say(channel, place.t, place), place)
 
     def doing(self, doings: Doings, place: Place) -> Record:
-        """What the engine does now with the scene's cells, for the picture at a place: for who asks, and nobody else."""
+        """What the engine now does with a scene's cells, for the picture at a place: for nobody but who asks."""
         cell = self._cell(place.t) if place.is_running else None
         lo, hi = (place.t, math.nextafter(place.t, math.inf)) if cell is None else cell
         where = {name: listed(wire) for name, wire in place.wires.items()}
