@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError, hint
-from reactive4d.geometry.deformations.columns import carry
+from reactive4d.geometry.deformations.columns import carry, rows_of
 
 __all__ = [
     "IDENTITY",
@@ -382,7 +382,7 @@ def transform_points(matrix: Matrix, points: NDArray[Any]) -> NDArray[Any]:
     array([[1., 2., 3.]], dtype=float32)
     """
     with np.errstate(over="ignore", invalid="ignore"):  # what is too large for its type is infinite
-        return _carried(matrix, _rows(points))
+        return _carried(matrix, rows_of(points))
 
 
 def _carried(matrix: Matrix, rows: NDArray[Any]) -> NDArray[Any]:
@@ -440,15 +440,6 @@ def transform_normals(matrix: Matrix, normals: NDArray[Any]) -> NDArray[Any]:
     unit = turned / lengths[:, None]
     unit.setflags(write=False)
     return unit
-
-
-def _rows(points: NDArray[Any]) -> NDArray[Any]:
-    points = np.asarray(points)
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise ShapeError(f"points: expected (V, 3), got an array of shape {points.shape}")
-    if points.dtype != np.float32 and points.dtype != np.float64:
-        points = points.astype(np.float64)
-    return points
 
 
 def decompose(matrix: Matrix) -> tuple[Matrix, Matrix, Matrix, Matrix]:

@@ -6,15 +6,31 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive4d.errors import ShapeError
+
 from .limits import Column
 
-__all__ = ["Operation", "carry", "lone"]
+__all__ = ["Operation", "carry", "lone", "rows_of"]
 
 # Takes the three columns and the free scratch columns of a block, and leaves both lists as they stand afterwards.
 Operation: TypeAlias = Callable[[list[Column], list[Column]], object]
 
 
 _IDENTITY: list[list[float]] = np.eye(4).tolist()
+
+
+def rows_of(points: NDArray[Any]) -> NDArray[Any]:
+    """Points (V, 3) of float32 or float64; of another type they become float64.
+
+    Raises:
+        ShapeError: they are not (V, 3).
+    """
+    points = np.asarray(points)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ShapeError(f"points: expected (V, 3), got an array of shape {points.shape}")
+    if points.dtype != np.float32 and points.dtype != np.float64:
+        points = points.astype(np.float64)
+    return points
 
 
 def carry(matrix: NDArray[np.float64], dtype: Any) -> Operation | None:

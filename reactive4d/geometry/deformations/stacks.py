@@ -20,7 +20,7 @@ from reactive4d.arrays import freeze
 from reactive4d.errors import ShapeError
 from reactive4d.geometry.transforms import IDENTITY, Matrix, inverse
 
-from .columns import Operation, carry, lone
+from .columns import Operation, carry, lone, rows_of
 from .limits import Column, Extent
 from .steps import FREE, Kernel, Step
 
@@ -170,7 +170,7 @@ def measured(points: NDArray[Any], row: list[float]) -> Extent:
     >>> measured(np.float32([[1, 2, 3], [4, 5, 6]]), [0.0, 2.0, 0.0, 1.0])
     (5.0, 11.0)
     """
-    rows = _rows(points)
+    rows = rows_of(points)
     with np.errstate(over="ignore", invalid="ignore"):
         return _measured(rows, _Gauge(row, rows.dtype)).extent
 
@@ -182,15 +182,6 @@ def _measured(rows: NDArray[Any], gauge: "_Gauge") -> "_Gauge":
         value, term = scratch[:, : len(block)]
         gauge.add(block.T, value, term)
     return gauge
-
-
-def _rows(points: NDArray[Any]) -> NDArray[Any]:
-    points = np.asarray(points)
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise ShapeError(f"points: expected (V, 3), got an array of shape {points.shape}")
-    if points.dtype != np.float32 and points.dtype != np.float64:
-        points = points.astype(np.float64)
-    return points
 
 
 class _Gauge:
@@ -235,7 +226,7 @@ class _Run:
     __slots__ = ("_is_split", "_known", "_operations", "_out", "_rows", "_weights")
 
     def __init__(self, points: NDArray[Any], weights: NDArray[np.float32] | None) -> None:
-        self._rows = _rows(points)
+        self._rows = rows_of(points)
         if weights is not None and weights.shape != self._rows.shape[:1]:
             raise ShapeError(f"weights: expected {self._rows.shape[:1]}, got an array of shape {weights.shape}")
         self._weights = weights

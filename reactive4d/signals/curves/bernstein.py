@@ -62,23 +62,12 @@ def at_each(controls: Array, u: Array) -> Array:
         controls: (p + 1, N, ...).
         u: (N,).
     """
-    u = u.reshape(u.shape + (1,) * (controls.ndim - 2))
-    n = len(controls)
-    if n == 1:
+    if len(controls) == 1:
         return controls[0].copy()
-    v = 1.0 - u
-    if n == 2:
-        # Not a + (b - a) * u: the difference of two large numbers may be infinite.
-        a, b = controls
-        return v * a + u * b
-    if n == 4:
-        a, b, c, d = controls
-        return v * v * (v * a + 3.0 * u * b) + u * u * (3.0 * v * c + u * d)
-    line = list(controls)
-    for k in range(n - 1, 0, -1):
-        for i in range(k):
-            line[i] = v * line[i] + u * line[i + 1]
-    return line[0]
+    several: Any = controls
+    shares: Any = u.reshape(u.shape + (1,) * (controls.ndim - 2))
+    found: Any = at(several, shares)
+    return found
 
 
 def integrated(controls: Array, length: float) -> Array:
