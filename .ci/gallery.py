@@ -9,6 +9,7 @@ import urllib.request
 from pathlib import Path
 
 command, *options = sys.argv[1:]
+signal.signal(signal.SIGINT, signal.default_int_handler)  # jobs in the background ignore it, and so would the server
 pages = [f"{path.relative_to('docs').with_suffix('')}.html" for path in sorted(Path("docs").rglob("*.md"))]
 with tempfile.TemporaryDirectory() as cache:
     environment = {**os.environ, "XDG_CACHE_HOME": cache} if "--built" in options else {**os.environ}
