@@ -75,8 +75,8 @@ def parts_of(dataset: Any, scalars: Any = None, *, where: str = "mesh") -> dict[
     bare.clear_point_data()
     bare.clear_cell_data()
     uv = data.active_texture_coordinates if hasattr(data, "active_texture_coordinates") else None
-    if uv is not None:
-        bare.point_data["uv"] = np.asarray(uv, np.float32)
+    if uv is not None and uv.ndim == 2 and uv.shape[1] >= 2:
+        bare.point_data["uv"] = np.asarray(uv, np.float32)[:, :2]
     if paint is not None:
         (bare.point_data if is_by_points else bare.cell_data)[PAINT] = paint
     found = _cells_of(_triangulated(bare), is_by_points=is_by_points)

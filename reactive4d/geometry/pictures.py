@@ -14,6 +14,7 @@ __all__ = ["MOST", "pictured"]
 
 MOST = 100_000  # faces
 NEAR = 1.0  # pixels of the picture for each face
+SLIGHT = 1e-3  # of the picture's width: beyond its edge, but not meant so
 
 
 def pictured(part: Part, picture: Any, *, where: str = "mesh") -> Part:
@@ -24,7 +25,7 @@ def pictured(part: Part, picture: Any, *, where: str = "mesh") -> Part:
 
     Args:
         part: triangles with texture coordinates: (0, 0) is the picture's lower left corner, (1, 1) its upper right one.
-        picture: of Pillow's.
+        picture: of Pillow's; beyond its edges it begins again.
         where: what the surface is called in errors.
 
     Raises:
@@ -46,12 +47,23 @@ def pictured(part: Part, picture: Any, *, where: str = "mesh") -> Part:
     if wrong.any():
         row = int(np.flatnonzero(wrong)[0])
         raise ShapeError(f"{where}: texture coordinates: expected finite numbers, got {uv[row].tolist()} at {row}")
-    image = picture.convert("RGBA")
+    image = _in_bytes(picture).convert("RGBA")
     while 4 * len(faces) <= MOST and _pixels(uv[faces], image.size) > NEAR:
         points, faces, others = kit.remesh.subdivide(points, faces, vertex_attributes={"uv": uv})
         uv = others["uv"]
-    colors = kit.visual.color.uv_to_interpolated_color(uv, image).astype(np.float32) / np.float32(255)
+    # Trimesh begins a picture again, too, but a pixel late each time.
+    inside = np.where(np.abs(uv - 0.5) > 0.5 + SLIGHT, uv % 1.0, uv)
+    colors = kit.visual.color.uv_to_interpolated_color(inside, image).astype(np.float32) / np.float32(255)
     return Part(singles(points, where), freeze(faces.astype(np.int32)), freeze(uv.astype(np.float32)), freeze(colors))
+
+
+def _in_bytes(picture: Any) -> Any:
+    """A picture whose numbers have 16 bits with the upper 8 of them; Pillow takes all above 255 for white."""
+    from PIL import Image
+
+    if not picture.mode.startswith("I"):
+        return picture
+    return Image.fromarray((np.clip(np.asarray(picture), 0, 65535) // 257).astype(np.uint8))
 
 
 def _pixels(corners: NDArray[np.float64], size: tuple[int, int]) -> float:

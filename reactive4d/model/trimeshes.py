@@ -104,6 +104,9 @@ def _surface(mesh: Any, where: str, *, is_plain: bool) -> Part:
         return Part(points, freeze(faces.astype(np.int32)), kept)
     if visual.kind == "texture":
         material = visual.material
+        if hasattr(material, "materials"):
+            error = ShapeError(f"{where}: a surface of {len(material.materials)} materials")
+            raise hint(error, "one mesh for each: from_trimesh takes a scene of them; or color=, for all of it")
         picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
         if picture is not None and kept is not None:
             found = pictured(Part(points, freeze(faces.astype(np.int32)), kept), picture, where=where)

@@ -118,6 +118,52 @@ def test_a_mesh_that_is_fine_enough_stays_as_it_is(monkeypatch: pytest.MonkeyPat
     assert len(drawn(r4.Scene(x=r4.from_pyvista(coarse, texture=np.asarray(picture())))).faces) == 128
 
 
+@pytest.mark.parametrize("tile", [-8.0, 0.0, 8.0, 1e6])
+def test_beyond_its_edges_a_picture_begins_again(tile: float):
+    """At every whole number, as often as one likes; the picture does not wander."""
+    sheet = pv.Plane(i_resolution=1, j_resolution=1)
+    sheet.active_texture_coordinates = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) + tile
+    mesh = drawn(r4.Scene(x=r4.from_pyvista(sheet, texture=np.asarray(picture()))))
+    x, y = mesh.points[:, :2].T + 0.5
+    inner = (np.abs(x - 0.5) < 0.45) & (np.abs(y - 0.5) < 0.45)
+    assert np.abs(mesh.attributes["colors"][inner, :2] - np.stack([x, y], axis=1)[inner]).max() < 0.02
+
+
+def test_what_nobody_can_count_is_no_place_of_a_picture_but_no_mistake():
+    """A file with such numbers shows some colour of the picture, without a warning."""
+    sheet = pv.Plane(i_resolution=1, j_resolution=1)
+    sheet.active_texture_coordinates = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) * 1e30
+    red = np.full((2, 2, 3), (255, 0, 0), np.uint8)
+    assert {*drawn(r4.Scene(x=r4.from_pyvista(sheet, texture=red))).attributes["colors"][:, 0]} == {1.0}
+
+
+def test_a_third_texture_coordinate_is_left_out():
+    """VTK may have as many as three."""
+    sheet = pv.Plane(i_resolution=1, j_resolution=1)
+    three = pv.convert_array(np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], np.float32), name="three")
+    sheet.GetPointData().SetTCoords(three)
+    agrees(drawn(r4.Scene(x=r4.from_pyvista(sheet, texture=np.asarray(picture())))), corner=(-0.5, -0.5))
+
+
+def test_a_picture_of_sixteen_bits_keeps_its_greys():
+    """All above the first 255 of 65536 steps would be white."""
+    grey = Image.fromarray(np.full((4, 4), 0x8080, np.uint16))
+    material = trimesh.visual.material.SimpleMaterial(image=grey)
+    visual = trimesh.visual.TextureVisuals(uv=CORNERS, material=material)
+    made = trimesh.Trimesh([(*corner, 0) for corner in CORNERS], [(0, 1, 2), (0, 2, 3)], process=False, visual=visual)
+    colors = drawn(r4.Scene(x=r4.from_trimesh(made))).attributes["colors"]
+    assert np.allclose(colors[:, :3], 128 / 255)
+
+
+def test_a_surface_of_several_materials_is_refused_in_words():
+    """Each of them may have a picture of its own; in one colour it can be had."""
+    made = square(pbr()).geometry["geometry_0"]
+    made.visual.material = trimesh.visual.material.MultiMaterial(materials=[pbr(), pbr()])
+    with pytest.raises(r4.ShapeError, match="a surface of 2 materials"):
+        r4.from_trimesh(made)
+    assert len(drawn(r4.Scene(x=r4.from_trimesh(made, color="red"))).faces) == 2
+
+
 @pytest.mark.parametrize("make", [pv.Texture, lambda array: array])
 def test_pyvistas_pictures_are_taken_too(make: Any):
     """Over time as well: the surface moves, the picture stays on it."""
