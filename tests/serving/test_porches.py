@@ -5,7 +5,7 @@ from contextlib import AsyncExitStack
 from urllib.parse import urlsplit
 
 import aiohttp
-from clients import client, got, run
+from clients import client, got, origin_of, run
 from test_liars import Puppet, is_answered
 
 Ends = tuple[asyncio.StreamReader, asyncio.StreamWriter]
@@ -81,5 +81,22 @@ def test_a_connection_that_was_answered_may_ask_again_but_counts(answered):
                         assert response.status == 200
                 assert len(server.hall.porch) <= 4
             await is_answered(server.address)
+
+    run(work)
+
+
+def test_who_calls_for_a_figure_and_opens_none_stays_on_the_porch(answered):
+    """A request that is no handshake is refused; the connection that made it counts on, and is cut when it is silent."""
+    server = answered(Puppet, silence=0.3)
+
+    async def work():
+        parts = urlsplit(server.address)
+        said = f"GET {parts.path}live/puppet HTTP/1.1\r\nHost: {parts.netloc}\r\nOrigin: {origin_of(server.address)}"
+        reader, writer = await connected(server.address, f"{said}\r\n\r\n".encode())
+        assert b" 400 " in await reader.readuntil(b"\r\n\r\n")
+        writer.write(b"GET / HTTP/1.1\r\nX-Never: ")
+        while await reader.read(4096):
+            pass
+        writer.transport.abort()
 
     run(work)

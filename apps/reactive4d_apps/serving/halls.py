@@ -185,10 +185,10 @@ class Hall:
             timeout=1.0,
         )
         self._open += 1
-        self.porch.leave(request.protocol)
         line: Line | None = None
         try:
             await socket.prepare(request)
+            self.porch.leave(request.protocol)
             title, transport = called.format(next(self._numbers)), request.transport
             abort = transport.abort if transport is not None else _nothing
             line = Line(
