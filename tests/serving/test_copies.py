@@ -490,6 +490,22 @@ def test_what_an_illustration_builds_is_edited_as_a_script(served):
     run(work)
 
 
+@pytest.mark.parametrize("times", [None, (0.0, 8.0)])
+def test_a_copy_is_shown_over_the_times_that_an_author_said(served, times):
+    """No script says them; where nobody did, they follow from the keys that the reader wrote."""
+    thing = Jack if times is None else type("Jack", (Jack,), {"times": times})
+    server = served(thing, editable=True)
+    (script,) = [one.script for one in server.hall.originals.values()]
+
+    async def work():
+        async with Line(server, "jack") as reader:
+            await edited(reader, f"{script} object (ball) sphere radius = <1, 1>, <4, 2>;")
+            found = (await reader.open())["times"]
+            assert (found["start"], found["stop"]) == (times or (1.0, 4.0))
+
+    run(work)
+
+
 def test_a_program_beside_what_can_be_edited_is_left_as_it_is(served):
     """Of a page's figures those have scripts of which there is one."""
     page = r4.Page("# Two\n\n![](one)\n\n![](other)\n", one=Jack, other=Opaque)

@@ -11,6 +11,7 @@ import reactive4d as r4
 from reactive4d.errors import Reactive4dError, ShapeError, hint
 from reactive4d.geometry.files import located
 from reactive4d.illustrations import subject
+from reactive4d.model.reaches import span
 from reactive4d.scefo.collecting import Collection
 from reactive4d.scefo.reading import FOLDER, SOURCE, reads_files
 from reactive4d_apps.scripts import script_of
@@ -59,8 +60,11 @@ def original(exhibit: Exhibit) -> Original:
     >>> made.script
     'object (ball) sphere; /* round */'
     """
-    folder, files = _files(subject(exhibit.figure.thing).scene)
+    about = subject(exhibit.figure.thing)
+    folder, files = _files(about.scene)
     times = exhibit.times
+    if times is None and about.times != span(about.scene):
+        times = about.times  # which no script says; what follows from its keys, follows from the reader's too
     return Original(
         name=exhibit.name,
         script=script_of(exhibit.figure.thing, folder=folder),
