@@ -86,7 +86,7 @@ def test_a_connection_that_was_answered_may_ask_again_but_counts(answered):
 
 
 def test_who_calls_for_a_figure_and_opens_none_stays_on_the_porch(answered):
-    """A request that is no handshake is refused; the connection that made it counts on, and is cut when it is silent."""
+    """What is no handshake is refused; the connection that said it counts on, and is cut when it is silent."""
     server = answered(Puppet, silence=0.3)
 
     async def work():
