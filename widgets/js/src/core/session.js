@@ -257,7 +257,9 @@ export class Session extends Emitter {
   #foresee() {
     const { ahead, courier } = this.#open;
     const { parameters } = this.point;
-    if (this.#hand === null || this.#plan !== null || this.#isBlind || courier.isBusy) return;
+    if (this.#hand === null || this.#plan !== null || this.#isBlind) return;
+    // What was asked ahead for another point may be under way still: the other ask is for what the reader wants.
+    if (courier.count > (this.#dues && 1)) return;
     if (this.#snapshot?.parameters !== parameters || this.#snapshot.revision !== this.revision) return;
     const plan = ahead.plan(parameters, this.#hand);
     if (plan === null) return;

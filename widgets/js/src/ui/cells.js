@@ -96,7 +96,7 @@ export class Cells {
     if (!this.#before || parameters !== this.#before.parameters || time !== this.#before.time) {
       this.#record = recordOf(this.chart, snapshot, this.#before);
     }
-    this.#before = { parameters, time, cells };
+    this.#before = snapshot;
     const letters = cells[this.#record] ?? "";
     if (letters !== this.#shown) this.#change(letters);
     this.#boxes.forEach(({ box }, i) => setAll(box, { "data-lit": !"-q".includes(letters[i] ?? "-") }));

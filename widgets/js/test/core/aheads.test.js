@@ -111,7 +111,27 @@ test("a wish of the reader goes first, and nothing more is asked ahead before it
   puppet.open_[1].answer(cells(puppet.open_[1].ask));
   await pause();
   assert.deepEqual(session.snapshot?.parameters.a, 5);
-  assert.deepEqual(puppet.open_.map(({ ask }) => [ask.parameters.a, ask.times.length]), [[0, 6], [5, 6]]);
+  assert.deepEqual(puppet.open_.map(({ ask }) => [ask.parameters.a, ask.times.length]), [[0, 6]]);
+  await answer();
+  assert.deepEqual(puppet.open_.map(({ ask }) => [ask.parameters.a, ask.times.length]), [[5, 6]]);
+  await answer();
+});
+
+test("who drags while it plays never waits for what was asked ahead, however long that takes", async () => {
+  const { puppet, session, go, answer } = await begun();
+  go(0.01);
+  const [ahead] = puppet.open_;
+  for (let a = 1; a < 6; a++) {
+    session.set({ parameters: { a } });
+    const last = puppet.open_[puppet.open_.length - 1];
+    assert.deepEqual([last.ask.parameters.a, last.ask.times.length], [a, 1]);
+    last.answer(cells(last.ask));
+    await pause();
+    assert.equal(session.snapshot?.parameters.a, a);
+    go(0.01 + a / 100);
+    assert.deepEqual(puppet.open_, [ahead]);
+  }
+  await answer();
   await answer();
 });
 
