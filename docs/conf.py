@@ -10,7 +10,13 @@ project = "reactive4d"
 author = "the reactive4d authors"
 release = importlib.metadata.version("reactive4d")
 language = "en"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "reactive4d_apps.sphinx"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "reactive4d_apps.sphinx",
+]
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath", "smartquotes", "tasklist"]
 myst_heading_anchors = 3
 html_theme = "reactive4d_book"
@@ -22,6 +28,7 @@ exclude_patterns = ["build"]
 
 # What a docstring puts between single quotes is a name.
 default_role = "literal"
+autosummary_generate = False  # a page per term is there, in reference/terms
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # they stand in the signature
 autodoc_preserve_defaults = True

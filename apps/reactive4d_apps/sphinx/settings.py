@@ -11,6 +11,7 @@ from sphinx.util import logging
 
 from reactive4d.geometry.files import put
 from reactive4d_apps.sphinx.bakings import EMPTY
+from reactive4d_apps.sphinx.declarations import call, describe, pass_over
 from reactive4d_apps.sphinx.directives import ExerciseDirective, IllustrationDirective, SolutionDirective
 from reactive4d_apps.sphinx.elements import Illustration, add_elements
 from reactive4d_apps.sphinx.mathml import visit_displayed, visit_inline
@@ -18,7 +19,7 @@ from reactive4d_apps.sphinx.readings import Readings, pantry_of, site_of
 from reactive4d_apps.sphinx.roles import ROLES
 from reactive4d_apps.sphinx.scripts import ScriptLexer
 from reactive4d_apps.sphinx.sites import figures_file, script_name, write_data, write_viewer
-from reactive4d_apps.sphinx.sources import engine_digest
+from reactive4d_apps.sphinx.sources import digest_of, engine_digest
 from reactive4d_apps.sphinx.stills import Stills
 
 __all__ = ["setup"]
@@ -50,9 +51,14 @@ def setup(app: Any) -> dict[str, Any]:
     app.add_lexer("scefo", ScriptLexer)
     app.add_html_math_renderer("mathml", (visit_inline, None), (visit_displayed, None))
     app.add_html_theme("reactive4d_book", str(THEME))
+    app.setup_extension("sphinx.ext.autodoc")
+    app.connect("autodoc-process-docstring", describe, priority=600)  # when another one has read its sections
+    app.connect("autodoc-process-signature", call)
+    app.connect("autodoc-skip-member", pass_over)
     app.connect("config-inited", _configure)
     app.connect("builder-inited", _begin)
     app.connect("env-get-outdated", _outdated)
+    app.connect("env-get-outdated", _edited)
     app.connect("env-purge-doc", _purge)
     app.connect("env-merge-info", _merge)
     app.connect("html-page-context", _page)
@@ -95,6 +101,13 @@ def _outdated(app: Any, env: Any, added: set[str], changed: set[str], removed: s
             empty in entry["pictures"] or not (folder / f"{entry['key']}.json").exists() for entry in entries.values()
         )
     ]
+
+
+def _edited(app: Any, env: Any, added: set[str], changed: set[str], removed: set[str]) -> list[str]:
+    """Pages whose text is another one, however old their files say that it is."""
+    before = getattr(env, "r4d_pages", {})
+    env.r4d_pages = {page: digest_of("", [Path(env.doc2path(page))]) for page in env.found_docs}
+    return [page for page, digest in env.r4d_pages.items() if before.get(page, digest) != digest]
 
 
 def _done(app: Any) -> dict[str, Any]:
