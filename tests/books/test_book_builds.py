@@ -1,5 +1,6 @@
 """Builds of one book: one at a time, one after another, broken off, of other sources, and without a network."""
 
+import errno
 import os
 import shutil
 import signal
@@ -19,6 +20,7 @@ pytest.importorskip("sphinx", reason="pip install '.[book]'")
 from reactive4d_apps.books import galleries
 from reactive4d_apps.books.builds import EDITION, Build, made, making, standing
 from reactive4d_apps.books.locks import Lock
+from reactive4d_apps.books.serving import opened
 
 PATIENCE = 120.0  # seconds; what takes longer has got stuck
 BALL = "# A ball\n\n```{illustration}\n:name: ball\n\nr4.Scene(ball=r4.Sphere())\n```\n"
@@ -208,6 +210,83 @@ def test_what_stands_is_of_these_sources_or_nothing(written: Book):
     assert standing(written.folder, work=work) is None
     written.write(BALL)
     assert standing(written.folder, work=work) == stands
+
+
+def test_what_stands_has_the_pages_as_they_are_now(plain: Book):
+    """However old a file says that it is: what was unpacked or copied keeps its time."""
+    assert plain.build().ok
+    plain.write("# A bowl\n")
+    os.utime(plain.folder / "index.md", (0, 0))
+    assert plain.build().ok
+    assert "A bowl" in plain.html()
+
+
+def test_a_site_elsewhere_says_nothing_of_the_one_that_stands(plain: Book, tmp_path: Path):
+    """Of other sources it does not; of the same it goes on to do so. What stood is written again, all of it."""
+    work, out = plain.folder / "build", tmp_path / "out"
+    assert made(plain.folder).ok
+    assert made(plain.folder, out=out).ok
+    stands = standing(plain.folder, work=work)
+    assert stands is not None
+    plain.write("# A bowl\n")
+    (work / "html" / "search.html").write_text("older", encoding="utf-8")
+    assert made(plain.folder, out=out).ok
+    assert standing(plain.folder, work=work) is None
+    assert made(plain.folder).ok
+    assert "A bowl" in plain.html()
+    assert standing(plain.folder, work=work) == stands
+
+
+def test_what_never_began_stands_for_nothing(plain: Book, monkeypatch: pytest.MonkeyPatch):
+    """Sphinx is there and cannot be imported: that is no warning, even if it ends alike."""
+
+    def fails(*given: Any) -> Generator[str, None, tuple[int, tuple[str, ...]]]:
+        yield "Reading the pages: 0 %"
+        return 1, ("ImportError: no docutils",)
+
+    assert made(plain.folder).ok
+    plain.write("# A bowl\n")
+    with monkeypatch.context() as only:
+        only.setattr("reactive4d_apps.books.builds.run", fails)
+        assert not made(plain.folder).ok
+    assert standing(plain.folder, work=plain.folder / "build") is None
+
+
+def test_a_book_builds_whatever_the_terminal_speaks(plain: Book, monkeypatch: pytest.MonkeyPatch):
+    """Who comes from elsewhere brings along a language that the machine does not have."""
+    monkeypatch.setenv("LANG", "xx_XX.UTF-8")
+    monkeypatch.setenv("LC_ALL", "xx_XX.UTF-8")
+    plain.write("# Grüße\n\n{nothing}`ω`\n")
+    build = made(plain.folder)
+    assert build.ok, build.complaints
+    assert "index.md:3: WARNING: Unknown interpreted text role" in " ".join(build.complaints)
+    assert "Grüße" in plain.html()
+
+
+def test_where_files_cannot_be_held_nobody_waits_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As on some drives of a network."""
+    fcntl = pytest.importorskip("fcntl")
+
+    def fails(*given: Any) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", fails)
+    with Lock(tmp_path / "lock") as lock:
+        assert lock.take()
+
+
+def test_what_is_saved_in_the_middle_of_the_first_build_comes_anew(plain: Book, monkeypatch: pytest.MonkeyPatch):
+    """Who writes does not wait for it."""
+
+    def busy(*given: Any, **options: Any) -> Generator[str, None, Build]:
+        build = yield from making(*given, **options)
+        plain.write("# A bowl\n")
+        return build
+
+    monkeypatch.setattr("reactive4d_apps.books.serving.making", busy)
+    lines = list(opened(plain.folder, rounds=1))
+    assert [line for line in lines if line.endswith("built anew")], lines
+    assert "A bowl" in plain.html()
 
 
 def test_a_book_builds_where_there_is_no_network(written: Book, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -25,6 +25,7 @@ TREES = "doctrees"
 FIGURES = "figures-{}.json"  # among them, for each of Sphinx's builders
 EDITION = "edition.txt"  # of what was built whole
 DRAFT = " without pictures"
+ELSEWHERE = " in "  # another folder than that of what stands
 PAUSE = 0.2  # seconds between two looks whether somebody else is done
 _PACKAGES = {
     package.__name__: Path(str(package.__file__)).parent
@@ -139,17 +140,21 @@ def making(
                 time.sleep(PAUSE)
         edition = _edition(source)
         note = kept / EDITION
-        is_anew = tools_of(_noted(kept)) != tools_of(edition)
+        place = "" if site == kept / "html" else f"{ELSEWHERE}{site.absolute()}"
+        noted = _noted(kept)
+        is_anew = tools_of(noted) != tools_of(edition)
+        is_elsewhere = noted.partition(ELSEWHERE)[2] != place.removeprefix(ELSEWHERE)
         draft = hasty and is_anew
         words = [sys.executable, "-m", "sphinx", "-b", builder, "-d", str(trees)]
         words += [*(["-W", "--keep-going"] if strict else [])]
         # What other tools built, and what a build left that was broken off, is not built upon.
-        words += [*(["--fresh-env", "--write-all"] if is_anew else [])]
+        words += [*(["--fresh-env"] if is_anew else []), *(["--write-all"] if is_anew or is_elsewhere else [])]
         words += [*(["-D", "illustration_pictures=0"] if draft else []), str(source), str(site)]
         note.unlink(missing_ok=True)
         code, complaints = yield from run(words, source, lock)
-        if code in (0, 1):  # it came to its end; warnings may be errors
-            put(note, f"{edition}{DRAFT if draft else ''}".encode())
+        if code == 0 or (strict and code == 1):  # it came to its end; warnings may be errors
+            # What stands in the book's own folder still does after a build elsewhere of the same sources.
+            put(note, (edition if noted == edition else f"{edition}{DRAFT if draft else ''}{place}").encode())
     if code != 0:
         return Build(source, site, False, complaints)
     size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file())

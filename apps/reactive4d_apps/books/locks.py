@@ -27,7 +27,7 @@ class Lock:
         self.handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
 
     def take(self) -> bool:
-        """Try to hold it; whether it is held now. It does not wait."""
+        """Try to hold it; whether it is held now. It does not wait; where files cannot be held, nobody has to."""
         try:
             if sys.platform == "win32":
                 import msvcrt
@@ -38,8 +38,10 @@ class Lock:
                 import fcntl
 
                 fcntl.flock(self.handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        except (BlockingIOError, PermissionError):
             return False
+        except OSError:  # some drives of a network know no locks
+            return True
         return True
 
     def close(self) -> None:

@@ -70,6 +70,7 @@ def _environment() -> dict[str, str]:
     paths = [path for path in sys.path if path]
     return {
         **os.environ,
+        "LC_ALL": "C",  # which every machine has; then Python writes UTF-8 nevertheless
         "NO_COLOR": "1",
         "PYTHONIOENCODING": "utf-8",
         "PYTHONUNBUFFERED": "1",

@@ -90,7 +90,7 @@ def opened(
     shelf = Shelf(entries_of(trees), folder)
     library = Library(build.site, shelf.figures, originals=shelf.originals, host=host)
     library.complain(build.complaints)
-    files.update(seen(folder, shelf.files))
+    files = {**seen(folder, shelf.files), **files}  # what was saved meanwhile is seen below
     with Server(library, host=host, port=port) as server:
         yield server.address
         is_open = browser is not None and browser(server.address)
@@ -119,7 +119,7 @@ def opened(
                     shelf.forget()
                     shelf = Shelf(entries_of(trees), folder)
                     library.renew(shelf.figures, build.complaints, originals=shelf.originals)
-                    files = {**seen(folder, shelf.files), **now}  # what was saved meanwhile is seen the next time
+                    files = {**seen(folder, shelf.files), **now}
                 else:
                     library.complain(build.complaints)
                 yield from _said(build)
