@@ -6,11 +6,11 @@
  * the reader may want something else meanwhile, and waits for them. What cannot be computed as fast as it is played is
  * asked at every second cell, or third.
  */
-import { WANTED } from "./channels.js";
+import { READERS, wantedOf } from "./channels.js";
+import { WireError } from "./errors.js";
 import { FOREVER } from "./playables.js";
 
 /**
- * @typedef {import("./types.js").Drawn} Drawn
  * @typedef {import("./types.js").Interval} Interval
  * @typedef {import("./types.js").Manifest} Manifest
  * @typedef {import("./types.js").Parameters} Parameters
@@ -48,7 +48,7 @@ export class Ahead {
   constructor({ times, nodes }, store, scene) {
     this.times = times;
     this.store = store;
-    this.heads = nodes.map(({ name }) => `${name}#`);
+    this.nodes = nodes;
     this.scene = scene;
   }
 
@@ -119,23 +119,28 @@ export class Ahead {
     /** @type {string[]} */
     const missing = [];
     let [since, until] = FOREVER;
-    /** @param {string} channel @param {boolean} [isHeld] whether it says what else is wanted */
-    const look = (channel, isHeld = false) => {
+    /** @param {string} channel @param {(value: any) => any} [read] if it says what else is wanted */
+    const look = (channel, read) => {
       const found = store.find(channel, t, parameters);
       if (found === null) {
         missing.push(channel);
         return undefined;
       }
-      const [from, to] = isHeld ? found.still(t) : FOREVER;
+      const [from, to] = read ? found.still(t) : FOREVER;
       since = Math.max(since, found.start, from);
       until = Math.min(until, found.stop, to);
-      return isHeld && found.error === null ? found.play(t, parameters) : null;
+      try {
+        return read && found.error === null ? read(found.play(t, parameters)) : null;
+      } catch (error) {
+        if (error instanceof WireError) return null; // whoever sees it is told
+        throw error;
+      }
     };
-    for (const head of this.heads) {
-      const visible = look(`${head}visible`, true);
+    for (const { name, kind } of this.nodes) {
+      const visible = look(`${name}#visible`, READERS.visible);
       if (visible === undefined || visible) {
-        const drawn = /** @type {Drawn} */ (look(`${head}drawn`, true));
-        for (const channel of WANTED[drawn] ?? []) look(head + channel);
+        const drawn = look(`${name}#drawn`, READERS.drawn);
+        if (drawn) for (const channel of wantedOf(kind, drawn)) look(`${name}#${channel}`);
       }
     }
     for (const channel of this.scene) look(channel);

@@ -16,7 +16,7 @@ export const DRAWN = /** @type {const} */ (["mesh", "lines", "points", "label", 
 
 /** What is wanted of a visible node, beside `drawn` and `visible`.
  * @type {Readonly<Record<Drawn, readonly string[]>>} */
-export const WANTED = Object.freeze({
+const WANTED = Object.freeze({
   mesh: ["color", "matrix", "points", "topology", "paints"],
   lines: ["color", "matrix", "points", "topology", "paints"],
   points: ["color", "matrix", "points", "paints"],
@@ -25,6 +25,14 @@ export const WANTED = Object.freeze({
   camera: ["matrix", "fov", "near", "far", "target"],
   none: [],
 });
+
+const PLACED = Object.freeze(["matrix"]); // a group is not drawn, but a handle stands where it is
+
+/** What is wanted of a visible node of some kind as well, once it is known as what it is drawn.
+ * @param {string} kind @param {Drawn} drawn */
+export function wantedOf(kind, drawn) {
+  return kind === "group" && drawn === "none" ? PLACED : WANTED[drawn];
+}
 
 const number = (/** @type {any} */ value) => finite(value, "value");
 const maybe = (/** @type {any} */ value) => (value === null ? null : finite(value, "value"));

@@ -1,7 +1,7 @@
 /** One node as it is watched from frame to frame: what is missing of it, and its state when nothing is. */
 import { Body } from "./bodies.js";
 import { Cell, isSame, isUnmoved } from "./cells.js";
-import { READERS, WANTED } from "./channels.js";
+import { READERS, wantedOf } from "./channels.js";
 import { WireError } from "./errors.js";
 import { identity } from "./matrices.js";
 
@@ -30,7 +30,6 @@ const NO_SETTINGS = Object.freeze({
   text: null, height: null, light_type: null, intensity: null, angle: null, reach: null, shadows: null,
   fov: null, near: null, far: null, target: null,
 });
-const PLACED = Object.freeze(["matrix"]); // a group is not drawn, but a handle stands where it is
 const SETTING = Object.keys(NO_SETTINGS);
 /** @type {readonly string[]} */
 const NONE = Object.freeze([]);
@@ -150,10 +149,9 @@ export class NodeWatch {
     if (scope.missing.length > before) return false;
     if (this.#fails(drawn)) return true;
     const kind = /** @type {Drawn} */ (drawn.value);
-    const wanted = kind === "none" && this.kind === "group" ? PLACED : WANTED[kind];
-    for (const channel of wanted) this.#cell(channel, scope, t, parameters);
+    for (const channel of wantedOf(this.kind, kind)) this.#cell(channel, scope, t, parameters);
     if (scope.missing.length > before) return false;
-    if (wanted === PLACED) return true; // if that is an error, its members say so
+    if (kind === "none") return true; // if where a group is, is an error, its members say so
     for (const cell of this.#used.values()) if (this.#fails(cell)) return true;
     return this.#resolves(scope);
   }

@@ -249,3 +249,36 @@ test("a node that will be seen is asked for before it is", async () => {
   const asked = new Set(puppet.asks.flatMap(({ times, channels }) => (times[0] > 0.3 ? channels : [])));
   assert.ok(["ball#text", "ball#matrix"].every((channel) => asked.has(channel)), [...asked].join());
 });
+
+test("where a group will be is asked for with the rest: a handle stands there", async () => {
+  const { puppet, go, answer } = await begun({ nodes: [{ name: "g", kind: "group" }], values: [] });
+  /** @type {Record<string, any>} */
+  const said = { "g#visible": true, "g#drawn": "none", "g#matrix": [...Array(16).keys()] };
+  const moved = (/** @type {Ask} */ ask) => ({
+    segments: cells(ask).segments.map((one) => ({ ...one, track: { kind: "const", value: said[one.channel] } })),
+  });
+  puppet.stale({ revision: 1, spans: Object.keys(said).map((channel) => [channel, null, null]) });
+  for (let time = 0.01; time < 0.3; time += 0.05) {
+    await answer(moved);
+    go(time);
+  }
+  const asked = new Set(puppet.asks.flatMap(({ times, channels }) => (times.length > 1 ? channels : [])));
+  assert.ok(asked.has("g#matrix"), [...asked].join());
+});
+
+test("a node that is drawn as nothing that there is stops nobody", async () => {
+  const { puppet, session, go, answer } = await begun({ nodes: [{ name: "ball", kind: "sphere" }], values: [] });
+  /** @type {Record<string, any>} */
+  const said = { "ball#visible": true, "ball#drawn": "constructor" };
+  const odd = (/** @type {Ask} */ ask) => ({
+    segments: cells(ask).segments.map((one) => ({ ...one, track: { kind: "const", value: said[one.channel] } })),
+  });
+  puppet.stale({ revision: 1, spans: Object.keys(said).map((channel) => [channel, null, null]) });
+  for (let time = 0.01; time < 0.3; time += 0.05) {
+    await answer(odd);
+    go(time);
+  }
+  await answer(odd);
+  assert.equal(session.snapshot?.time, session.point.time);
+  assert.deepEqual(session.snapshot?.problems.map(({ channel }) => channel), ["ball#drawn"]);
+});
