@@ -16,7 +16,7 @@ from reactive4d.errors import Reactive4dError
 from reactive4d.model.scenes import Scene
 from reactive4d.signals.facade import Signal
 
-__all__ = ["LETTERS", "Doings"]
+__all__ = ["LETTERS", "Doings", "both"]
 
 # What happened to a cell, by its letter; where several things did, the first of these.
 LETTERS: Mapping[str, str] = {
@@ -71,7 +71,7 @@ class Doings:
             letter = _EVENTS.get(kind)
             if letter is not None:
                 known: Any = cell
-                happened[known] = min(happened.get(known, "-"), letter, key=_ORDER.index)
+                happened[known] = _first(happened.get(known, "-"), letter)
         before, self._contents = self._contents, self._content()
         edited = {cell for cell, was, now in zip(self.cells, before, self._contents, strict=True) if was is not now}
         return "".join([_letter(happened.get(c, "-"), c in edited, c in marked) for c in self.cells])
@@ -86,6 +86,19 @@ class Doings:
     def _content(self) -> list[Any]:
         """What those hold that are set; None of all others."""
         return [getattr(cell, "content", None) for cell in self.cells]
+
+
+def both(one: str, other: str) -> str:
+    """What was done for either of two pictures.
+
+    >>> both("--er", "xq-r")
+    'xqer'
+    """
+    return "".join(map(_first, one, other))
+
+
+def _first(one: str, other: str) -> str:
+    return min(one, other, key=_ORDER.index)
 
 
 def _letter(letter: str, is_edited: bool, is_marked: bool) -> str:

@@ -4,6 +4,7 @@ import threading
 from typing import Any
 
 import param
+import pytest
 from viewers import Viewer
 
 import reactive4d as r4
@@ -86,6 +87,30 @@ def test_an_edit_makes_the_record_stale() -> None:
     viewer.reader.model.refresh()
     viewer.reader.flush()
     assert viewer.find("#cells", 3.0) is None
+
+
+@pytest.mark.parametrize("asked", [["fly#matrix"], []], ids=["of what is asked", "of something else"])
+def test_an_edit_while_an_answer_is_computed_is_in_what_was_done(asked: list[str]) -> None:
+    """The answer is of the revision after the edit, and so is what is told of it: nobody asks for it again."""
+    scene, way = watched()
+    edits: list[Any] = []
+
+    def slow(t: float) -> float:
+        if edits:
+            author = threading.Thread(target=edits.pop())
+            author.start()
+            author.join()
+        return t
+
+    scene.signals["slow"] = r4.lift(slow)(r4.time)
+    viewer = Viewer(scene)
+    viewer.ask(3.0, ["fly#matrix", "#values.slow", "#cells"])
+    edits.append(lambda: way.points.update({4: (2.5, 0, 3.5)}))
+    reply = viewer.ask(3.5, [*asked, "#values.slow", "#cells"])
+    assert edits == []
+    assert reply["revision"] == 2
+    (segment,) = [one for one in reply["segments"] if one["channel"] == "#cells"]
+    assert segment["track"]["value"] == "xmcerm"
 
 
 def test_a_value_that_nobody_asked_for_is_evaluated_and_one_that_was_is_not() -> None:

@@ -24,7 +24,7 @@ from reactive4d.signals.facade import Signal
 from reactive4d_widgets.channels import at_rest, painted
 from reactive4d_widgets.chronicles import CHANNEL
 from reactive4d_widgets.creases import split
-from reactive4d_widgets.doings import Doings
+from reactive4d_widgets.doings import Doings, both
 from reactive4d_widgets.live.records import Record
 from reactive4d_widgets.live.vaults import Vault
 from reactive4d_widgets.live.witnesses import Witness, witness
@@ -99,12 +99,18 @@ class Answerer:
                 return self._made(channel, cell, _body(channel, said), [said], place, is_held=True)
         return self._resting(channel, self._say(channel, place.t, place), place)
 
-    def doing(self, doings: Doings, place: Place) -> Record:
-        """What the engine now does with a scene's cells, for the picture at a place: for nobody but who asks."""
+    def doing(self, doings: Doings, place: Place, before: Record | None) -> Record:
+        """What the engine now does with a scene's cells, for the picture at a place: for nobody but who asks.
+
+        Where an edit overtook what it did for the same ask `before`, both count.
+        """
         cell = self._cell(place.t) if place.is_running else None
         lo, hi = (place.t, math.nextafter(place.t, math.inf)) if cell is None else cell
         where = {name: listed(wire) for name, wire in place.wires.items()}
-        track = constant(doings.ask(lo, place.values))
+        said = doings.ask(lo, place.values)
+        if before is not None and "track" in before.wire:
+            said = both(before.wire["track"]["value"], said)
+        track = constant(said)
         return Record(CHANNEL, lo, hi, where, {"channel": CHANNEL, "when": [lo, hi], "where": where, "track": track})
 
     def _is_instant(self, interval: Interval, t: float) -> bool:

@@ -155,7 +155,8 @@ class Model:
             The revision, and records; of a channel that nobody knows an error.
         """
         # What is done for a picture is found out before its parts are asked for.
-        wanted = [(name, place) for place in places for name in sorted(channels, key=lambda name: name != CHANNEL)]
+        names = sorted(channels, key=lambda name: name != CHANNEL)
+        wanted = [(name, place) for place in places for name in names]
         found: dict[int, Record] = {}
         for _ in range(PATIENCE):
             self.refresh()
@@ -171,17 +172,20 @@ class Model:
 
     def _round(self, wanted: Sequence[tuple[str, Place]], found: dict[int, Record]) -> int | None:
         """Compute what is not there, or was overtaken; the revision of all, if nothing was."""
+        before = self.revision
         for i, (name, place) in enumerate(wanted):
-            if i not in found or found[i].is_stale:
-                found[i] = self._record(name, place)
+            if i not in found or found[i].is_stale or name == CHANNEL:
+                found[i] = self._record(name, place, found.get(i))
         with self._lock:
             is_settled = self._note()
-            return self.revision if is_settled and not any(one.is_stale for one in found.values()) else None
+            is_new = self.revision != before
+            is_over = any(one.is_stale or (is_new and one.channel == CHANNEL) for one in found.values())
+            return self.revision if is_settled and not is_over else None
 
-    def _record(self, name: str, place: Place) -> Record:
+    def _record(self, name: str, place: Place, before: Record | None) -> Record:
         layout = self._layout
         if name == CHANNEL and layout.doings is not None:
-            return layout.answerer.doing(layout.doings, place)
+            return layout.answerer.doing(layout.doings, place, before)
         channel = layout.channels.get(name)
         if channel is None:
             return _unknown(name)
