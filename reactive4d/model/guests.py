@@ -104,11 +104,12 @@ def _picture(texture: Any) -> Any:
             given = np.asarray(texture)
     elif texture.GetInput() is not None and not texture.GetCubeMap():
         given = np.asarray(kit.Texture(texture.GetInput()).to_array())
-    if given is not None and given.dtype == np.uint8 and given.size:
+    if given is not None and given.dtype in (np.uint8, np.uint16) and given.size:
+        shades = given if given.dtype == np.uint8 else (given // 257).astype(np.uint8)
         if given.ndim == 2 or given.shape[2:] == (1,):
-            return Image.fromarray(given.reshape(given.shape[:2]))
-        if given.shape[2:] in ((3,), (4,)):
-            return Image.fromarray(given)
+            return Image.fromarray(shades.reshape(given.shape[:2]))
+        if given.shape[2:] in ((2,), (3,), (4,)):
+            return Image.fromarray(shades)
     told = type(texture).__name__ if given is None else f"shape {given.shape} of {given.dtype}"
     error = ShapeError(f"texture: expected a picture, (H, W, 3 or 4) bytes, got {told}")
     raise hint(error, "pyvista.read_texture('wood.jpg'), or np.asarray(Image.open('wood.jpg'))")

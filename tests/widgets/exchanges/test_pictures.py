@@ -1,6 +1,7 @@
 """Pictures on surfaces become the colours of points, as near to each other as the picture's pixels."""
 
 import io
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -153,6 +154,19 @@ def test_a_picture_of_sixteen_bits_keeps_its_greys():
     made = trimesh.Trimesh([(*corner, 0) for corner in CORNERS], [(0, 1, 2), (0, 2, 3)], process=False, visual=visual)
     colors = drawn(r4.Scene(x=r4.from_trimesh(made))).attributes["colors"]
     assert np.allclose(colors[:, :3], 128 / 255)
+
+
+@pytest.mark.parametrize("kind", ["L", "LA", "P", "I;16"])
+def test_whatever_a_file_has_in_it_is_the_same_picture(kind: str, tmp_path: Path):
+    """Greys, greys with alpha, a palette, or two bytes for each number."""
+    greys = np.tile(np.arange(0, 256, 15, dtype=np.uint8), (18, 1))
+    wide = Image.fromarray(greys.astype(np.uint16) * 257)
+    (wide if kind == "I;16" else Image.fromarray(greys).convert(kind)).save(tmp_path / "greys.png")
+    sheet = pv.Plane(i_resolution=1, j_resolution=1)
+    mesh = drawn(r4.Scene(x=r4.from_pyvista(sheet, texture=pv.read_texture(tmp_path / "greys.png"))))
+    wanted = (mesh.points[:, :1] + 0.5) * [1.0, 1.0, 1.0]
+    assert np.abs(mesh.attributes["colors"][:, :3] - wanted).max() < 0.01
+    assert (mesh.attributes["colors"][:, 3] == 1.0).all()
 
 
 def test_a_surface_of_several_materials_is_refused_in_words():
