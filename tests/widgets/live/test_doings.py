@@ -199,4 +199,13 @@ def test_cells_that_are_named_later_are_shown_when_the_figure_opens_again() -> N
     viewer.reader.model.refresh()
     viewer.reader.flush()
     assert {"type": "reopen"} in viewer.told
-    assert [box["name"] for box in viewer.sent({"type": "open"})["manifest"]["cells"]["boxes"]] == ["way", "picture"]
+    cells = viewer.sent({"type": "open"})["manifest"]["cells"]
+    assert [box["name"] for box in cells["boxes"]] == ["way", "picture"]
+    assert cells["arrows"] == [[0, 1]]
+
+    scene.cells = {"way": scene["chair"].matrix, "picture": scene["chair"]}
+    viewer.told.clear()
+    way.points[4] = (2.5, 0, 3.0)
+    viewer.reader.model.refresh()
+    viewer.reader.flush()
+    assert {"type": "reopen"} in viewer.told, "the same words on the boxes, and others behind them"

@@ -50,7 +50,7 @@ class Layout:
             [channel.name for channel in self.plan.values],
             [control.description() for control in self.plan.subject.controls],
             (self.plan.span, self.plan.keys),
-            list(self._cells),
+            list(self._cells.items()),
         )
 
 
