@@ -506,6 +506,33 @@ def test_a_copy_is_shown_over_the_times_that_an_author_said(served, times):
     run(work)
 
 
+class Set(Jack):
+    """A jack of a size that is the same for all readers."""
+
+    size = param.Number(1.0, constant=True)
+    reach = param.Range((0.0, 1.0), bounds=(-1.0, 2.0))
+
+    def build(self) -> r4.Scene:
+        p = self.signals
+        box = r4.Box(size=r4.vec(p.size, 1, 1))
+        box.translate(r4.vec(p.reach[0], p.reach[1], p.height * r4.time))
+        return r4.Scene(box=box)
+
+
+def test_a_copy_opens_with_the_values_of_the_figure(served):
+    """In the script stand those of the class; some the reader's page does not say, since no reader sets them."""
+    server = served(Set(size=2.0, reach=(0.5, 1.5)), editable=True, height=3.0)
+    (script,) = [one.script for one in server.hall.originals.values()]
+
+    async def work():
+        async with Line(server, "set") as reader:
+            await edited(reader, script)
+            found = (await reader.open())["point"]["parameters"]
+            assert found == {"size": 2.0, "reach": [0.5, 1.5], "height": 3.0}
+
+    run(work)
+
+
 def test_a_program_beside_what_can_be_edited_is_left_as_it_is(served):
     """Of a page's figures those have scripts of which there is one."""
     page = r4.Page("# Two\n\n![](one)\n\n![](other)\n", one=Jack, other=Opaque)

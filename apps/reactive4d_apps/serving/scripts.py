@@ -73,7 +73,7 @@ def original(exhibit: Exhibit) -> Original:
         title=exhibit.figure.title,
         times=None if times is None else tuple(float(t) for t in np.asarray(times, np.float64)),
         options=exhibit.options,
-        values=exhibit.point,
+        values={**about.point.parameters, **exhibit.point},
     )
 
 
