@@ -336,6 +336,26 @@ def test_the_gallery_is_built_once_for_its_sources(shown: Book, monkeypatch: pyt
     assert "A bowl" in (galleries.work() / "html" / "index.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(
+    ("platform", "known", "base"),
+    [
+        ("linux", {}, "home/.cache"),
+        ("darwin", {}, "home/Library/Caches"),
+        ("win32", {"LOCALAPPDATA": "local"}, "local"),
+        ("win32", {}, "home/.cache"),
+        ("darwin", {"XDG_CACHE_HOME": "mine"}, "mine"),
+        ("linux", {"XDG_CACHE_HOME": ""}, "home/.cache"),
+    ],
+)
+def test_a_gallery_is_built_where_a_system_keeps_such_things(
+    platform: str, known: dict[str, str], base: str, monkeypatch: pytest.MonkeyPatch
+):
+    """Or where somebody said."""
+    monkeypatch.setattr(sys, "platform", platform)
+    monkeypatch.setattr(Path, "home", lambda: Path("home"))
+    assert galleries.work(known).parent == Path(base) / "reactive4d"
+
+
 def test_the_gallery_serves_what_came_built(shown: Book):
     """As in a wheel: the pages beside their sources, which nobody has to build."""
     assert shown.build(strict=True).ok

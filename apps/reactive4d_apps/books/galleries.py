@@ -49,12 +49,12 @@ def work(environment: Mapping[str, str] | None = None) -> Path:
     True
     """
     known = os.environ if environment is None else environment
-    if sys.platform == "win32" and known.get("LOCALAPPDATA"):
+    if known.get("XDG_CACHE_HOME"):  # whoever sets it means it, on other systems too
+        base = Path(known["XDG_CACHE_HOME"])
+    elif sys.platform == "win32" and known.get("LOCALAPPDATA"):
         base = Path(known["LOCALAPPDATA"])
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
     else:
-        base = Path(known.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+        base = Path.home() / ("Library/Caches" if sys.platform == "darwin" else ".cache")
     # Two checkouts may have the same version.
     place = hashlib.sha256(str(source()).encode("utf-8")).hexdigest()[:8]
     return base / "reactive4d" / f"book-{importlib.metadata.version('reactive4d')}-{place}"
