@@ -1,6 +1,7 @@
 """Builds of one book: one at a time, one after another, broken off, of other sources, and without a network."""
 
 import errno
+import itertools
 import os
 import shutil
 import signal
@@ -287,6 +288,19 @@ def test_what_is_saved_in_the_middle_of_the_first_build_comes_anew(plain: Book, 
     lines = list(opened(plain.folder, rounds=1))
     assert [line for line in lines if line.endswith("built anew")], lines
     assert "A bowl" in plain.html()
+
+
+def test_a_server_outlives_what_cannot_be_built(plain: Book):
+    """As while another branch is checked out, or the package is installed anew; it goes on when all is there again."""
+    settings = plain.folder / "conf.py"
+    lines, text = iter(opened(plain.folder)), settings.read_text(encoding="utf-8")
+    assert [line for line in itertools.islice(lines, 2) if line.startswith("http://")]
+    settings.unlink()
+    said = list(itertools.takewhile(lambda line: "the pages stay as they are" not in line, lines))
+    assert f"{plain.folder}: there is no book (no conf.py)" in said
+    settings.write_text(text, encoding="utf-8")
+    assert next(lines).endswith("built anew")
+    lines.close()
 
 
 def test_a_book_builds_where_there_is_no_network(written: Book, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

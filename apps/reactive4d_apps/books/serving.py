@@ -114,7 +114,7 @@ def opened(
                 if now == files:
                     continue
                 files = now
-                build = made(folder, work=kept)
+                build = _anew(folder, kept)
                 if build.ok:
                     shelf.forget()
                     shelf = Shelf(entries_of(trees), folder)
@@ -130,11 +130,19 @@ def opened(
 
 def _finished(library: "Library", shelf: "Shelf", folder: Path, work: Path, draft: Build) -> Iterator[str]:
     """Draw the pictures of the figures, while the book is read already; open pages go on as they are."""
-    build = made(folder, work=work)
+    build = _anew(folder, work)
     yield from [line for line in build.complaints if line not in draft.complaints]
     if build.ok:
         library.renew(shelf.figures, build.complaints, originals=shelf.originals, again=False)
         yield "All of the book is built now, with the still pictures of its figures."
+
+
+def _anew(folder: Path, work: Path) -> Build:
+    """Build it again; readers keep what they have where that cannot be done now."""
+    try:
+        return made(folder, work=work)
+    except (Reactive4dError, OSError) as error:
+        return Build(folder, work / "html", False, (str(error),))
 
 
 def _said(build: Build) -> Iterator[str]:
