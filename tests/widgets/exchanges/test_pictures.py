@@ -144,6 +144,11 @@ def test_a_third_texture_coordinate_is_left_out():
     three = pv.convert_array(np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], np.float32), name="three")
     sheet.GetPointData().SetTCoords(three)
     agrees(drawn(r4.Scene(x=r4.from_pyvista(sheet, texture=np.asarray(picture())))), corner=(-0.5, -0.5))
+    plotter = pv.Plotter(off_screen=True)
+    plotter.add_mesh(sheet, texture=pv.Texture(np.asarray(picture())), name="sheet")
+    (found,) = staged(plotter)
+    agrees(found.scene.at(0.0)["sheet"].drawn, corner=(-0.5, -0.5))
+    plotter.close()
 
 
 def test_a_picture_of_sixteen_bits_keeps_its_greys():
