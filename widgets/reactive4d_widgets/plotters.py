@@ -147,8 +147,7 @@ def _mesh(actor: Any, mapper: Any, missing: list[str]) -> Object | None:
     data = pv.wrap(given).copy(deep=False)
     prop = actor.GetProperty()
     colors, is_by_points = _mapped(mapper, data)
-    uv: Any = data.active_texture_coordinates
-    texture = _texture(actor) if colors is None else None
+    uv, texture = data.active_texture_coordinates, _texture(actor) if colors is None else None
     data.clear_data()
     data.set_active_scalars(None)
     if colors is not None:
@@ -166,7 +165,7 @@ def _mesh(actor: Any, mapper: Any, missing: list[str]) -> Object | None:
     if style == WIRES:
         return from_pyvista(_edges(data), scalars=scalars, **look)
     if is_pictured:
-        data.active_texture_coordinates = uv[:, :2]
+        data.active_texture_coordinates = np.asarray(uv)[:, :2]
         surface = from_pyvista(data, texture=texture, opacity=prop.GetOpacity())
     else:
         surface = from_pyvista(data, scalars=scalars, **look)
