@@ -33,6 +33,8 @@ const MOST_TRIES = 3; // of one instant: what is wanted of a node is known only 
 export class Ahead {
   /** @type {Interval} all is known over it */
   #clear = [0, 0];
+  /** The nodes of which not all is known for all times. @type {Manifest["nodes"]} */
+  #left = [];
   /** @type {Parameters|null} of what is clear */
   #parameters = null;
   /** How often an instant was asked. @type {Map<number, number>} */
@@ -55,6 +57,7 @@ export class Ahead {
   /** Something of what was known is known no more. */
   forget() {
     this.#clear = [0, 0];
+    this.#left = this.nodes;
     this.#tries.clear();
   }
 
@@ -118,17 +121,18 @@ export class Ahead {
     const { store } = this;
     /** @type {string[]} */
     const missing = [];
-    let [since, until] = FOREVER;
+    let [start, stop] = FOREVER; // of a node, or of the scene's own
     /** @param {string} channel @param {(value: any) => any} [read] if it says what else is wanted */
     const look = (channel, read) => {
       const found = store.find(channel, t, parameters);
       if (found === null) {
         missing.push(channel);
+        start = Infinity;
         return undefined;
       }
       const [from, to] = read ? found.still(t) : FOREVER;
-      since = Math.max(since, found.start, from);
-      until = Math.min(until, found.stop, to);
+      start = Math.max(start, found.start, from);
+      stop = Math.min(stop, found.stop, to);
       try {
         return read && found.error === null ? read(found.play(t, parameters)) : null;
       } catch (error) {
@@ -136,14 +140,19 @@ export class Ahead {
         throw error;
       }
     };
-    for (const { name, kind } of this.nodes) {
+    for (const channel of this.scene) look(channel);
+    let [since, until] = [start, stop];
+    this.#left = this.#left.filter(({ name, kind }) => {
+      [start, stop] = FOREVER;
       const visible = look(`${name}#visible`, READERS.visible);
       if (visible === undefined || visible) {
         const drawn = look(`${name}#drawn`, READERS.drawn);
         if (drawn) for (const channel of wantedOf(kind, drawn)) look(`${name}#${channel}`);
       }
-    }
-    for (const channel of this.scene) look(channel);
+      since = Math.max(since, start);
+      until = Math.min(until, stop);
+      return start > -Infinity || stop < Infinity;
+    });
     if (missing.length === 0) {
       const [a, b] = this.#clear;
       this.#clear = since <= b && a <= until ? [Math.min(a, since), Math.max(b, until)] : [since, until];

@@ -364,6 +364,7 @@ export class Session extends Emitter {
       const spans = courier.cut(message);
       ahead.forget();
       this.#plan = null;
+      this.#isBlind = false;
       this.#wish = this.#wishFor(this.point);
       this.emit("stale", spans);
     } catch (error) {

@@ -1,5 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { Ahead } from "../../src/core/aheads.js";
+import { readManifest } from "../../src/core/manifests.js";
+import { ChannelStore } from "../../src/core/store.js";
 import { named, packRaw } from "../fixtures/packing.mjs";
 import { opened, pause, plain, Puppet, rested } from "./puppets.mjs";
 
@@ -211,7 +214,7 @@ test("what has much to send is asked less far ahead", async () => {
   await answer();
 });
 
-test("an ask ahead that goes wrong is told to nobody, and not made again before the reader acts", async () => {
+test("an ask ahead that goes wrong is told to nobody, nor made again until the reader acts or hears news", async () => {
   const { puppet, session, go, answer } = await begun();
   /** @type {any[]} */
   const problems = [];
@@ -224,7 +227,38 @@ test("an ask ahead that goes wrong is told to nobody, and not made again before 
   session.set({ time: 0.03 });
   go(0.04);
   assert.deepEqual(puppet.open_.map(({ ask }) => ask.times.length), [6]);
+  puppet.open_[0].fail(new Error("no"));
+  await pause();
+  go(0.05);
+  assert.equal(puppet.open_.length, 0);
+  puppet.stale({ revision: 1, spans: [] });
+  assert.deepEqual(puppet.open_.map(({ ask }) => ask.times.length), [6]);
   await answer();
+});
+
+test("a node that is known for all times is not looked at for each instant that comes", () => {
+  const nodes = Array.from({ length: 100 }, (_, i) => ({ name: `n${i}`, kind: "group" }));
+  let looks = 0;
+  class Counting extends ChannelStore {
+    /** @param {string} channel @param {number} t @param {Record<string, any>} parameters @override */
+    find(channel, t, parameters) {
+      looks++;
+      return super.find(channel, t, parameters);
+    }
+  }
+  const store = new Counting();
+  const said = { visible: true, drawn: "none", matrix: [...Array(16).keys()] };
+  store.put(nodes.flatMap(({ name }) => Object.entries(said).map(([channel, value]) => (
+    { channel: `${name}#${channel}`, when: [null, null], track: { kind: "const", value } }
+  ))));
+  const ahead = new Ahead({ ...readManifest(plain()), nodes }, store, ["#values.x"]);
+  const plan = ahead.plan({}, playing());
+  assert.deepEqual(plan?.channels, ["#values.x"]);
+  assert.equal(plan?.times.length, 6);
+  assert.equal(looks, 300 + 6);
+  ahead.forget();
+  ahead.plan({}, playing());
+  assert.equal(looks, 2 * (300 + 6));
 });
 
 test("a node that will be seen is asked for before it is", async () => {
