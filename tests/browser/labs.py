@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.error import HTTPError
 from urllib.request import urlopen
 
 ROOT = Path(__file__).parents[2]
@@ -180,8 +181,15 @@ class Notebook:
 
     def saved(self) -> list[dict[str, Any]]:
         """The cells as they were saved."""
-        with urlopen(f"{self.address}/api/contents/x.ipynb", timeout=60) as found:
-            return json.load(found)["content"]["cells"]
+        for _ in range(PATIENCE // 100):
+            try:
+                with urlopen(f"{self.address}/api/contents/x.ipynb", timeout=60) as found:
+                    return json.load(found)["content"]["cells"]
+            except HTTPError as error:
+                if error.code != 400:  # the file is half written
+                    raise
+                self.page.wait_for_timeout(100)
+        raise AssertionError("the notebook cannot be read")
 
 
 @contextmanager
