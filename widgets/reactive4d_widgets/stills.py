@@ -70,31 +70,15 @@ def render(
     put(target, made)
 
 
-def poster(
-    subject: Any,
-    *,
-    t: float = 0.0,
-    size: tuple[int, int] = SIZE,
-    camera: Any = None,
-    background: str = "light",
-    edges: bool = True,
-    shadows: bool = True,
-    parameters: Mapping[str, Any] | None = None,
-    bounds: Any = None,
-    **values: Any,
-) -> bytes:
-    """The same picture as the bytes of a PNG file, for a page to carry.
-
-    Whoever knows the `bounds` of all that is ever to be seen, (2, 3) metres, spares the scene from being asked for it.
+def poster(subject: Any, **how: Any) -> bytes:
+    """The same picture as the bytes of a PNG file, for a page to carry; told what `pictured` is told.
 
     >>> import reactive4d as r4
     >>> len(poster(r4.Scene(ball=r4.Sphere()), size=(320, 240))) < 30_000
     True
     """
-    looks: Any = {"camera": camera, "background": background, "edges": edges, "shadows": shadows}
-    image = pictured(subject, t=t, size=size, **looks, parameters=parameters, bounds=bounds, **values)
     file = io.BytesIO()
-    image.save(file, "PNG", optimize=True)
+    pictured(subject, **how).save(file, "PNG", optimize=True)
     return file.getvalue()
 
 
@@ -113,6 +97,8 @@ def pictured(
     **values: Any,
 ) -> Any:
     """The same picture as an image of Pillow, of which `ratio` pixels may be one of a label's height.
+
+    Whoever knows the `bounds` of all that is ever to be seen, (2, 3) metres, spares the scene from being asked for it.
 
     >>> import reactive4d as r4
     >>> pictured(r4.Scene(ball=r4.Sphere()), size=(320, 240), background="dark").getpixel((0, 0))
